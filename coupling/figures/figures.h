@@ -1,0 +1,60 @@
+// Figures as PNG through gnuplot; beside each figure its data and the script that drew it (FIGURE.gp, FIGURE.dat).
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "coupling/io/particle_frame.h"
+#include "voxel/sample.h"
+
+namespace interstice::figures {
+
+/// A filled map of void fraction on one or more slices, one panel each, one shared colour bar and fixed range.
+struct SlicePanel {
+  std::string title;                // "X2: x = 9 mm"
+  voxel::Samples samples;
+  bool averaged = false;            // draw void_fraction_averaged instead of void_fraction
+  std::vector<io::WallPose> walls;  // outlines, cut by the slice
+};
+struct SliceFigure {
+  std::string title;
+  std::string note;                 // printed small: voxel, averaging length, method
+  std::vector<SlicePanel> panels;
+  double lo = 0, hi = 1;
+  std::vector<double> contours;     // levels drawn as lines; empty: none
+};
+void write_slices(const std::filesystem::path& png, const SliceFigure& figure);
+
+/// Curves over a common axis.
+struct Curve {
+  std::string name;
+  std::vector<double> x, y;
+};
+struct CurveFigure {
+  std::string title, x_label, y_label, note;
+  std::vector<Curve> curves;
+  std::optional<std::pair<double, double>> y_range;
+  struct Mark { double x; std::string label; };   // vertical lines (ends of phases)
+  std::vector<Mark> marks;
+};
+/// `panels` stacked one above the other, sharing their x axis.
+void write_curves(const std::filesystem::path& png, const std::vector<CurveFigure>& panels);
+
+enum class GrainView { above, side };               // seen along -z, along +y
+enum class GrainColour { diameter, speed, layer };
+struct GrainFigure {
+  std::string title;
+  GrainView view = GrainView::above;
+  GrainColour colour = GrainColour::diameter;
+  Box window;                                       // what to show [m]; grains outside are left out
+  std::optional<std::pair<double, double>> range;   // of the colour, in um or mm/s
+};
+/// Grains as discs to scale, farther ones first, walls as outlines.
+void write_grains(const std::filesystem::path& png, const io::ParticleFrame& frame, const GrainFigure& figure);
+
+/// True when gnuplot can be started; otherwise figures are skipped with one warning.
+bool plotting_available();
+
+}  // namespace interstice::figures

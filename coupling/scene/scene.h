@@ -1,0 +1,168 @@
+// What a scene file says, typed, validated, in SI units. Nothing changes a Scene after read_scene() made it.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/shapes.h"
+
+namespace interstice::scene {
+
+enum class Boundary { open, wall, periodic };
+enum class NormalLaw { hertz };
+enum class Damping { tension, clipped };  // may the dashpot make a separating contact attractive?
+enum class TangentialLaw { none, mindlin };
+enum class RollingLaw { none, cdt };
+enum class CohesionLaw { none, sjkr };
+
+struct Domain {
+  Box box;
+  std::array<Boundary, 3> boundary{Boundary::open, Boundary::open, Boundary::open};
+  std::array<std::string, 3> wall_material;  // per axis, where the boundary is a wall
+  Vec3d gravity{0, 0, -9.81};                // [m/s^2]
+};
+
+struct Material {
+  std::string name;
+  double density = 0;         // [kg/m^3]
+  double youngs_modulus = 0;  // [Pa]
+  double poisson_ratio = 0;   // [-]
+};
+
+struct ContactPair {
+  std::array<std::string, 2> materials;
+  double restitution = 0;              // [-]
+  double friction = 0;                 // [-]
+  double rolling_friction = 0;         // [-]
+  double cohesion_energy_density = 0;  // [J/m^3]
+};
+
+struct Contact {
+  NormalLaw normal = NormalLaw::hertz;
+  Damping damping = Damping::tension;
+  TangentialLaw tangential = TangentialLaw::none;
+  RollingLaw rolling = RollingLaw::none;
+  CohesionLaw cohesion = CohesionLaw::none;
+  std::vector<ContactPair> pairs;
+};
+
+enum class SizeLaw { single, normal, lognormal, uniform, bimodal, table };
+enum class SizeWeight { number, mass };
+
+/// A distribution of diameters [m], truncated to [min, max]. By number, or by mass (then the density given is that
+/// of mass over diameter, and the numbers follow from it).
+struct Diameters {
+  SizeLaw law = SizeLaw::single;
+  SizeWeight weight = SizeWeight::number;
+  double mean = 0, sd = 0;      // single: mean; normal: both [m]; lognormal: mean is the median [m], sd that of ln d [-]
+  double mean2 = 0, sd2 = 0;    // bimodal: the second normal mode [m]
+  double share2 = 0;            // bimodal: the second mode's share (of number or mass, as `weight` says)
+  double min = 0, max = 0;      // [m]
+  std::vector<double> table_diameter, table_share;  // table: class edges (n + 1) [m], shares (n)
+};
+
+struct RainInsertion {
+  std::string phase;         // inserted during this phase
+  Box box;                   // grains lie wholly inside it
+  Vec3d velocity{0, 0, 0};   // [m/s]
+  double interval = 0.5e-3;  // time between attempts [s]
+};
+
+/// One grain of a placement list.
+struct PlacedGrain {
+  Vec3d position;               // [m]
+  double diameter = 0;          // [m]
+  Vec3d velocity{0, 0, 0};      // [m/s]
+  Vec3d spin{0, 0, 0};          // [rad/s]
+};
+struct ListInsertion {
+  std::string file;
+  std::vector<PlacedGrain> grains;
+};
+
+struct Particles {
+  std::string name;
+  std::string material;
+  std::int64_t count = 0;
+  Diameters diameter;                 // rain only
+  std::optional<RainInsertion> rain;  // exactly one of the two
+  std::optional<ListInsertion> list;
+};
+
+struct Motion {
+  std::string phase;
+  Vec3d velocity{0, 0, 0};  // [m/s]
+};
+
+struct Wall {
+  std::string name;
+  std::string material;
+  Shape shape;
+  bool watch = false;  // columns of its own in series.csv
+  std::vector<Motion> motion;
+};
+
+struct Phase {
+  std::string name;
+  std::optional<double> duration;  // [s]; or until:
+  bool until_inserted = false;
+  bool until_settled = false;
+  double at_most = 0;                  // [s]
+  double settled_energy = 1e-3;        // kinetic energy per grain below this fraction of m g d ...
+  double settled_time = 1e-3;          // ... for this long [s]
+};
+
+struct TimeStep {
+  double rayleigh = 0.2;         // fraction of the Rayleigh time
+  double collision = 0.04;       // fraction of the collision time
+  std::optional<double> fixed;   // [s], instead of the two
+  bool allow_unstable = false;   // lets a fixed step above 0.2 of the collision time through
+};
+
+struct Output {
+  double trajectory = 0;  // interval [s]; 0: none
+  double series = 0;      // interval [s]; 0: none
+  double checkpoint = 0;  // interval of wall-clock seconds [s]; 0: only at the end and at a stop
+};
+
+/// "x=4.5 mm": the plane of voxels that holds this coordinate.
+struct Slice {
+  int axis = 0;
+  double at = 0;  // [m]
+};
+/// "y@x=9 mm,z=35 um": the row of voxels along `axis` through the point (the component of `axis` is ignored).
+struct Line {
+  int axis = 1;
+  Vec3d at;  // [m]
+};
+
+struct Field {
+  std::string name;
+  double voxel = 0;                     // edge [m]
+  Box box;
+  std::optional<double> every;          // interval [s]; also at the end of each phase, always
+  double average = 0;                   // averaging length [m]; 0: none
+  std::vector<Slice> slices;
+  std::vector<Line> lines;
+  bool periodic_from_domain = true;
+};
+
+struct Scene {
+  std::string file;   // where it came from, for messages
+  std::string title;
+  Domain domain;
+  std::vector<Material> materials;
+  Contact contact;
+  std::vector<Particles> particles;
+  std::vector<Wall> walls;
+  std::vector<Phase> phases;
+  TimeStep step;
+  std::uint64_t seed = 1;
+  Output output;
+  std::vector<Field> fields;
+};
+
+}  // namespace interstice::scene
