@@ -1,9 +1,13 @@
 // Figures as PNG through gnuplot; beside each figure its data and the script that drew it (FIGURE.gp, FIGURE.dat).
+// Every write_* makes the folder it needs, throws InputError where the figure itself makes no sense (nothing to draw,
+// a range that is none) and RunError where it cannot be drawn (gnuplot missing or failing, a folder that cannot be
+// written). See docs/FIGURES.md.
 #pragma once
 
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "coupling/io/particle_frame.h"
@@ -24,13 +28,15 @@ struct SliceFigure {
   std::vector<SlicePanel> panels;
   double lo = 0, hi = 1;
   std::vector<double> contours;     // levels drawn as lines; empty: none
+  std::string colour_label = "void fraction";
+  bool diverging = false;           // for differences: two-sided palette, white in the middle of [lo, hi]
 };
 void write_slices(const std::filesystem::path& png, const SliceFigure& figure);
 
 /// Curves over a common axis.
 struct Curve {
   std::string name;
-  std::vector<double> x, y;
+  std::vector<double> x, y;         // NaN breaks the line
 };
 struct CurveFigure {
   std::string title, x_label, y_label, note;
@@ -39,7 +45,8 @@ struct CurveFigure {
   struct Mark { double x; std::string label; };   // vertical lines (ends of phases)
   std::vector<Mark> marks;
 };
-/// `panels` stacked one above the other, sharing their x axis.
+/// `panels` stacked one above the other, sharing their x axis. The first panel's title heads the figure, the titles
+/// of the others their panels; the last non-empty x label and note are printed once, below.
 void write_curves(const std::filesystem::path& png, const std::vector<CurveFigure>& panels);
 
 enum class GrainView { above, side };               // seen along -z, along +y
@@ -50,11 +57,13 @@ struct GrainFigure {
   GrainColour colour = GrainColour::diameter;
   Box window;                                       // what to show [m]; grains outside are left out
   std::optional<std::pair<double, double>> range;   // of the colour, in um or mm/s
+  std::string note;                                 // printed small
 };
-/// Grains as discs to scale, farther ones first, walls as outlines.
+/// Grains as discs to scale, farther ones first, walls as outlines. A long thin window is cut into rows, one below
+/// the other, so that single grains can still be told apart.
 void write_grains(const std::filesystem::path& png, const io::ParticleFrame& frame, const GrainFigure& figure);
 
-/// True when gnuplot can be started; otherwise figures are skipped with one warning.
+/// True when gnuplot is found on PATH. Where it is not, callers skip their figures and say so once.
 bool plotting_available();
 
 }  // namespace interstice::figures

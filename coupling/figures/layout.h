@@ -1,0 +1,61 @@
+// What all figures share: colours, where panels and texts stand on the canvas, units of lengths.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace interstice::figures {
+
+/// The palettes, defined once: viridis (sequential), and blue-white-vermillion (for differences).
+std::string sequential_palette();
+std::string diverging_palette();
+
+/// Curve number `index` in Okabe and Ito's colours, which colour-blind people and grey printers keep apart,
+/// dark ones first and yellow never on white.
+std::string curve_colour(std::size_t index);
+/// A hollow or filled mark of its own for curve number `index`.
+int curve_point_type(std::size_t index);
+
+/// A rectangle on the canvas [px], from its top left corner.
+struct Frame {
+  double left = 0, top = 0, width = 0, height = 0;
+};
+struct Canvas {
+  double width = 1600, height = 900;
+
+  double across(double x) const { return x / width; }  // screen coordinates, which count from the bottom left
+  double up(double y) const { return 1 - y / height; }
+};
+
+/// The next plot fills `frame`.
+std::string place(const Canvas& canvas, const Frame& frame);
+
+struct Text {
+  double x = 0, y = 0;  // [px] from the top left; y at half the height of the letters
+  std::string text;
+  double size = 15;              // [pt]
+  std::string options = "left";  // gnuplot's: left | center | right, rotate, tc
+};
+/// A label, for the next plot only (`unset label` follows every plot).
+std::string write(const Canvas& canvas, const Text& text);
+
+/// The colour bar of the next plot, vertical, filling `frame`, its label on the far side.
+std::string colour_bar(const Canvas& canvas, const Frame& frame, std::string_view label);
+
+/// The unit in which an extent [m] reads best: mm, or um below 0.3 mm.
+struct LengthUnit {
+  double per_metre = 1e3;
+  const char* name = "mm";
+};
+LengthUnit length_unit(double extent);
+
+/// A step of 1, 2 or 5 times a power of ten that cuts `extent` into at most `most` intervals.
+double tick_step(double extent, int most);
+
+/// How wide a text prints [px], roughly, in letters of `size` [pt].
+double text_width(std::string_view text, double size);
+
+/// `text` in lines of at most `room` [px] each, broken at spaces.
+std::string wrapped(std::string_view text, double size, double room);
+
+}  // namespace interstice::figures
