@@ -1,0 +1,87 @@
+#include "dem/contacts.h"
+
+#include <algorithm>
+
+#include "base/parallel.h"
+#include "dem/wall_distance.h"
+
+namespace interstice::dem {
+namespace {
+constexpr std::size_t kRowsPerBlock = 2048;
+constexpr std::size_t kPairsPerBlock = 4096;
+}  // namespace
+
+void PairContacts::replace(std::vector<PairRef> new_pairs, const std::vector<GrainRow>& rows,
+                           const std::vector<std::uint32_t>& old_slot) {
+  std::vector<std::uint8_t> new_touching(new_pairs.size(), 0);
+  std::vector<Vec3d> new_spring(new_pairs.size());
+  for_each_block({new_pairs.size(), kPairsPerBlock}, [&](std::size_t, std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) {
+      const std::uint32_t slot = old_slot[new_pairs[k].a];
+      if (slot == kNoSlot) continue;
+      const std::int64_t partner = rows[new_pairs[k].b].id;
+      const auto first = partner_id_.begin() + first_[slot], last = partner_id_.begin() + first_[slot + 1];
+      const auto at = std::lower_bound(first, last, partner);
+      if (at == last || *at != partner) continue;
+      const std::uint32_t old_pair = adjacent_[static_cast<std::size_t>(at - partner_id_.begin())].pair;
+      new_touching[k] = touching[old_pair];
+      new_spring[k] = spring[old_pair];
+    }
+  });
+  pairs = std::move(new_pairs);
+  touching = std::move(new_touching);
+  spring = std::move(new_spring);
+  results.resize(pairs.size());
+  build_adjacency(rows);
+}
+
+void PairContacts::build_adjacency(const std::vector<GrainRow>& rows) {
+  first_.assign(rows.size() + 1, 0);
+  for (const PairRef& p : pairs) {
+    ++first_[p.a + 1];
+    ++first_[p.b + 1];
+  }
+  for (std::size_t s = 1; s < first_.size(); ++s) first_[s] += first_[s - 1];
+  adjacent_.resize(2 * pairs.size());
+  partner_id_.resize(2 * pairs.size());
+  std::vector<std::uint32_t> next(first_.begin(), first_.end() - 1);
+  for (std::uint32_t k = 0; k < pairs.size(); ++k) {
+    adjacent_[next[pairs[k].a]++] = {k, pairs[k].b, 0};
+    adjacent_[next[pairs[k].b]++] = {k, pairs[k].a, 1};
+  }
+  for_each_block({rows.size(), kRowsPerBlock}, [&](std::size_t, std::size_t begin, std::size_t end) {
+    for (std::size_t s = begin; s < end; ++s) {
+      std::sort(adjacent_.begin() + first_[s], adjacent_.begin() + first_[s + 1],
+                [&](const Adjacent& l, const Adjacent& r) { return rows[l.slot].id < rows[r.slot].id; });
+      for (std::uint32_t e = first_[s]; e < first_[s + 1]; ++e) partner_id_[e] = rows[adjacent_[e].slot].id;
+    }
+  });
+}
+
+void WallContacts::replace(const std::vector<GrainRow>& rows, const std::vector<Shape>& walls, double skin,
+                           const std::vector<std::uint32_t>& old_slot) {
+  const Blocks blocks{rows.size(), kRowsPerBlock};
+  std::vector<std::vector<WallContact>> found(blocks.count());
+  std::vector<std::uint32_t> count(rows.size() + 1, 0);
+  for_each_block(blocks, [&](std::size_t b, std::size_t begin, std::size_t end) {
+    for (std::size_t s = begin; s < end; ++s) {
+      for (std::uint32_t w = 0; w < walls.size(); ++w) {
+        if (wall_distance(walls[w], rows[s].position()).distance >= rows[s].radius + skin) continue;
+        WallContact contact{w, 0, {}, {}};
+        if (old_slot[s] != PairContacts::kNoSlot) {
+          for (const WallContact& old : of(old_slot[s])) {
+            if (old.wall == w) contact = old;
+          }
+        }
+        found[b].push_back(contact);
+        ++count[s + 1];
+      }
+    }
+  });
+  entries.clear();
+  for (const auto& f : found) entries.insert(entries.end(), f.begin(), f.end());
+  for (std::size_t s = 1; s < count.size(); ++s) count[s] += count[s - 1];
+  first_ = std::move(count);
+}
+
+}  // namespace interstice::dem

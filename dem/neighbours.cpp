@@ -1,0 +1,206 @@
+#include "dem/neighbours.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "base/parallel.h"
+
+namespace interstice::dem {
+namespace {
+
+constexpr std::size_t kRowsPerBlock = 1024;
+constexpr int kMaxLevels = 16;
+
+bool near(const GrainRow& a, const GrainRow& b, const SearchSpace& space) {
+  const Vec3d d = separation(a.position(), b.position(), space);
+  const double reach = a.radius + b.radius + space.skin;
+  return dot(d, d) < reach * reach;
+}
+
+PairRef ordered(const std::vector<GrainRow>& rows, std::uint32_t i, std::uint32_t j) {
+  return rows[i].id < rows[j].id ? PairRef{i, j} : PairRef{j, i};
+}
+
+/// The grains of one size class in the cells of a dense grid over their own bounding box.
+struct Level {
+  double largest = 0;  // radius [m]
+  Vec3d lo;
+  std::array<double, 3> cell{1, 1, 1};
+  std::array<std::int64_t, 3> n{1, 1, 1};
+  std::vector<std::uint32_t> start;    // first member of each cell, and one past the last
+  std::vector<std::uint32_t> members;  // slots, cell by cell
+
+  std::int64_t coordinate(double p, int axis) const {
+    return static_cast<std::int64_t>(std::floor((p - lo[axis]) / cell[axis]));
+  }
+  std::int64_t index(std::int64_t i, std::int64_t j, std::int64_t k) const { return (k * n[1] + j) * n[0] + i; }
+};
+
+Box bounds_of(const std::vector<GrainRow>& rows, const std::vector<std::uint32_t>& members) {
+  constexpr double inf = std::numeric_limits<double>::infinity();
+  Box b{{inf, inf, inf}, {-inf, -inf, -inf}};
+  for (const std::uint32_t m : members) {
+    const Vec3d p = rows[m].position();
+    for (int axis = 0; axis < 3; ++axis) {
+      b.lo[axis] = std::min(b.lo[axis], p[axis]);
+      b.hi[axis] = std::max(b.hi[axis], p[axis]);
+    }
+  }
+  return b;
+}
+
+/// Sets the cells: about as large as the class's pairs reach, larger where that would make far more cells than
+/// grains (a few fine grains in a long domain), so that memory stays proportional to the number of grains.
+void size_cells(Level& level, const Box& box, double edge, std::size_t grains, const SearchSpace& space) {
+  const double budget = 16.0 * static_cast<double>(grains) + 4096;
+  for (;; edge *= 1.26) {  // about 2^(1/3): half as many cells
+    double cells = 1;
+    for (int axis = 0; axis < 3; ++axis) {
+      const bool wraps = space.periodic[axis];
+      level.lo[axis] = wraps ? space.domain.lo[axis] : box.lo[axis];
+      const double length = (wraps ? space.domain.hi[axis] : box.hi[axis]) - level.lo[axis];
+      const double count = std::max(1.0, std::floor(length / edge + (wraps ? 0 : 1)));
+      level.n[axis] = count > 2e9 ? 2000000000 : static_cast<std::int64_t>(count);
+      level.cell[axis] = wraps ? length / static_cast<double>(level.n[axis]) : edge;
+      cells *= count;
+    }
+    if (cells <= budget) return;
+  }
+}
+
+void sort_into_cells(Level& level, const std::vector<GrainRow>& rows, const std::vector<std::uint32_t>& slots) {
+  level.start.assign(static_cast<std::size_t>(level.n[0] * level.n[1] * level.n[2]) + 1, 0);
+  std::vector<std::uint32_t> cell_of(slots.size());
+  for (std::size_t s = 0; s < slots.size(); ++s) {
+    const Vec3d p = rows[slots[s]].position();
+    std::array<std::int64_t, 3> c{};
+    for (int axis = 0; axis < 3; ++axis) {
+      c[axis] = std::clamp<std::int64_t>(level.coordinate(p[axis], axis), 0, level.n[axis] - 1);
+    }
+    cell_of[s] = static_cast<std::uint32_t>(level.index(c[0], c[1], c[2]));
+    ++level.start[cell_of[s] + 1];
+  }
+  for (std::size_t c = 1; c < level.start.size(); ++c) level.start[c] += level.start[c - 1];
+  level.members.resize(slots.size());
+  std::vector<std::uint32_t> next(level.start.begin(), level.start.end() - 1);
+  for (std::size_t s = 0; s < slots.size(); ++s) level.members[next[cell_of[s]]++] = slots[s];
+}
+
+/// Classes by halves of the largest radius; empty ones are left out.
+std::vector<Level> build_levels(const std::vector<GrainRow>& rows, const SearchSpace& space,
+                                std::vector<std::uint8_t>& level_of) {
+  double largest = 0;
+  for (const GrainRow& r : rows) largest = std::max(largest, r.radius);
+  std::array<std::vector<std::uint32_t>, kMaxLevels> classes;
+  for (std::uint32_t i = 0; i < rows.size(); ++i) {
+    const int c = std::clamp(static_cast<int>(std::log2(largest / rows[i].radius)), 0, kMaxLevels - 1);
+    classes[c].push_back(i);
+  }
+  std::vector<Level> levels;
+  level_of.resize(rows.size());
+  for (const auto& slots : classes) {
+    if (slots.empty()) continue;
+    Level level;
+    for (const std::uint32_t s : slots) {
+      level.largest = std::max(level.largest, rows[s].radius);
+      level_of[s] = static_cast<std::uint8_t>(levels.size());
+    }
+    size_cells(level, bounds_of(rows, slots), 2 * level.largest + space.skin, slots.size(), space);
+    sort_into_cells(level, rows, slots);
+    levels.push_back(std::move(level));
+  }
+  return levels;
+}
+
+/// The cells of one axis within reach of a grain, as at most two runs of neighbours.
+struct Span {
+  std::array<std::pair<std::int64_t, std::int64_t>, 2> run;
+  int count = 0;
+};
+
+Span cells_in_reach(const Level& level, double p, double reach, int axis, bool periodic) {
+  std::int64_t first = level.coordinate(p - reach, axis), last = level.coordinate(p + reach, axis);
+  const std::int64_t n = level.n[axis];
+  Span span;
+  if (!periodic) {
+    first = std::max<std::int64_t>(first, 0);
+    last = std::min(last, n - 1);
+    if (first <= last) span.run[span.count++] = {first, last};
+  } else if (last - first + 1 >= n) {
+    span.run[span.count++] = {0, n - 1};
+  } else {
+    const std::int64_t from = ((first % n) + n) % n, to = ((last % n) + n) % n;
+    if (from <= to) {
+      span.run[span.count++] = {from, to};
+    } else {
+      span.run[span.count++] = {0, to};
+      span.run[span.count++] = {from, n - 1};
+    }
+  }
+  return span;
+}
+
+void search_level(const std::vector<GrainRow>& rows, const SearchSpace& space, const Level& level, bool own_level,
+                  std::uint32_t i, std::vector<PairRef>& found) {
+  const GrainRow& grain = rows[i];
+  const double reach = grain.radius + level.largest + space.skin;
+  std::array<Span, 3> spans;
+  for (int axis = 0; axis < 3; ++axis) {
+    spans[axis] = cells_in_reach(level, grain.position()[axis], reach, axis, space.periodic[axis]);
+  }
+  const auto visit_row = [&](std::int64_t j, std::int64_t k) {
+    for (int r = 0; r < spans[0].count; ++r) {
+      const std::uint32_t begin = level.start[level.index(spans[0].run[r].first, j, k)];
+      const std::uint32_t end = level.start[level.index(spans[0].run[r].second, j, k) + 1];
+      for (std::uint32_t m = begin; m < end; ++m) {
+        const std::uint32_t other = level.members[m];
+        if (own_level && other <= i) continue;  // each pair of a class once
+        if (near(grain, rows[other], space)) found.push_back(ordered(rows, i, other));
+      }
+    }
+  };
+  for (int rk = 0; rk < spans[2].count; ++rk) {
+    for (std::int64_t k = spans[2].run[rk].first; k <= spans[2].run[rk].second; ++k) {
+      for (int rj = 0; rj < spans[1].count; ++rj) {
+        for (std::int64_t j = spans[1].run[rj].first; j <= spans[1].run[rj].second; ++j) visit_row(j, k);
+      }
+    }
+  }
+}
+
+}  // namespace
+
+std::vector<PairRef> find_pairs(const std::vector<GrainRow>& rows, const SearchSpace& space) {
+  if (rows.empty()) return {};
+  std::vector<std::uint8_t> level_of;
+  const std::vector<Level> levels = build_levels(rows, space, level_of);
+
+  const Blocks blocks{rows.size(), kRowsPerBlock};
+  std::vector<std::vector<PairRef>> found(blocks.count());
+  for_each_block(blocks, [&](std::size_t b, std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      for (std::size_t l = 0; l <= level_of[i]; ++l) {  // its own class and the coarser ones
+        search_level(rows, space, levels[l], l == level_of[i], static_cast<std::uint32_t>(i), found[b]);
+      }
+    }
+  });
+  std::size_t total = 0;
+  for (const auto& f : found) total += f.size();
+  std::vector<PairRef> pairs;
+  pairs.reserve(total);
+  for (const auto& f : found) pairs.insert(pairs.end(), f.begin(), f.end());
+  return pairs;
+}
+
+std::vector<PairRef> find_pairs_brute_force(const std::vector<GrainRow>& rows, const SearchSpace& space) {
+  std::vector<PairRef> pairs;
+  for (std::uint32_t i = 0; i < rows.size(); ++i) {
+    for (std::uint32_t j = i + 1; j < rows.size(); ++j) {
+      if (near(rows[i], rows[j], space)) pairs.push_back(ordered(rows, i, j));
+    }
+  }
+  return pairs;
+}
+
+}  // namespace interstice::dem

@@ -1,0 +1,131 @@
+// A simulation to named arrays and back, bit for bit.
+#include <algorithm>
+
+#include "base/error.h"
+#include "dem/simulation.h"
+
+namespace interstice::dem {
+namespace {
+
+constexpr std::size_t kRealsPerGrain = 17;
+constexpr std::size_t kIntegersPerGrain = 3;
+constexpr std::size_t kRealsPerWall = 6;
+
+void append(std::vector<double>& out, const Vec3d& v) { out.insert(out.end(), {v.x, v.y, v.z}); }
+
+Vec3d vec_at(const std::vector<double>& in, std::size_t at) { return {in[at], in[at + 1], in[at + 2]}; }
+
+template <class Map>
+const auto& array_of(const Map& map, const char* name) {
+  const auto it = map.find(name);
+  if (it == map.end()) throw InputError(std::string("checkpoint: no array named ") + name + "; start the run anew");
+  return it->second;
+}
+
+}  // namespace
+
+SavedState Simulation::save() const {
+  SavedState s;
+  std::vector<double>& grains = s.real["grains"];
+  std::vector<std::int64_t>& labels = s.integer["grain_labels"];
+  std::vector<double>&pair_springs = s.real["pair_springs"], &wall_springs = s.real["wall_springs"];
+  std::vector<std::int64_t>&pair_ids = s.integer["pair_ids"], &wall_ids = s.integer["wall_ids"];
+  for (const std::uint32_t slot : slots_by_id()) {
+    const GrainRow& g = rows_[slot];
+    const GrainMotion& m = motions_[slot];
+    append(grains, g.position());
+    append(grains, g.velocity());
+    append(grains, g.spin());
+    append(grains, m.acceleration);
+    append(grains, m.angular);
+    grains.insert(grains.end(), {g.radius, g.mass});
+    labels.insert(labels.end(), {g.id, g.material, g.layer});
+    for (const Adjacent& e : pair_contacts_.of(slot)) {
+      if (e.second || !pair_contacts_.touching[e.pair]) continue;
+      pair_ids.insert(pair_ids.end(), {g.id, rows_[e.slot].id});
+      append(pair_springs, pair_contacts_.spring[e.pair]);
+    }
+    for (const WallContact& w : wall_contacts_.of(slot)) {
+      if (!w.touching) continue;
+      wall_ids.insert(wall_ids.end(), {g.id, w.wall});
+      append(wall_springs, w.spring);
+    }
+  }
+  for (const WallMotion& m : motion_of_wall_) {
+    append(s.real["walls"], m.velocity);
+    append(s.real["walls"], m.offset);
+    s.integer["walls_since"].push_back(m.since);
+  }
+  s.real["time_step"] = {dt_};
+  s.integer["counters"] = {step_, next_id_, lost_};
+  return s;
+}
+
+void Simulation::restore(const SavedState& s) {
+  const auto& grains = array_of(s.real, "grains");
+  const auto& labels = array_of(s.integer, "grain_labels");
+  const auto& counters = array_of(s.integer, "counters");
+  const std::size_t n = labels.size() / kIntegersPerGrain;
+  if (grains.size() != n * kRealsPerGrain || counters.size() != 3) {
+    throw InputError("checkpoint: arrays of unequal length; start the run anew");
+  }
+  if (array_of(s.real, "time_step").at(0) != dt_) {
+    throw InputError("checkpoint: made with another time step; start the run anew");
+  }
+  step_ = counters[0], next_id_ = counters[1], lost_ = counters[2];
+  rows_.assign(n, {});
+  motions_.assign(n, {});
+  for (std::size_t i = 0; i < n; ++i) {
+    const std::size_t at = i * kRealsPerGrain;
+    const Vec3d p = vec_at(grains, at), v = vec_at(grains, at + 3), w = vec_at(grains, at + 6);
+    GrainRow& g = rows_[i];
+    g.x = p.x, g.y = p.y, g.z = p.z, g.vx = v.x, g.vy = v.y, g.vz = v.z, g.wx = w.x, g.wy = w.y, g.wz = w.z;
+    g.radius = grains[at + 15], g.mass = grains[at + 16];
+    g.id = labels[3 * i];
+    g.material = static_cast<std::uint16_t>(labels[3 * i + 1]);
+    g.layer = static_cast<std::int32_t>(labels[3 * i + 2]);
+    motions_[i] = {vec_at(grains, at + 9), 1 / g.mass, vec_at(grains, at + 12),
+                   1 / (0.4 * g.mass * g.radius * g.radius)};
+  }
+  const auto& walls = array_of(s.real, "walls");
+  const auto& since = array_of(s.integer, "walls_since");
+  if (since.size() != motion_of_wall_.size() || walls.size() != kRealsPerWall * since.size()) {
+    throw InputError("checkpoint: made with other walls; start the run anew");
+  }
+  for (std::size_t w = 0; w < since.size(); ++w) {
+    motion_of_wall_[w] = {vec_at(walls, kRealsPerWall * w), vec_at(walls, kRealsPerWall * w + 3), since[w]};
+  }
+  place_walls();
+  begun_ = false;
+  built_ids_.clear();
+  rebuild();
+  restore_springs(s);
+}
+
+void Simulation::restore_springs(const SavedState& s) {
+  const auto& pair_ids = array_of(s.integer, "pair_ids");
+  const auto& pair_springs = array_of(s.real, "pair_springs");
+  const auto& wall_ids = array_of(s.integer, "wall_ids");
+  const auto& wall_springs = array_of(s.real, "wall_springs");
+  if (2 * pair_springs.size() != 3 * pair_ids.size() || 2 * wall_springs.size() != 3 * wall_ids.size()) {
+    throw InputError("checkpoint: arrays of unequal length; start the run anew");
+  }
+  std::vector<std::uint32_t> slot_of_id(static_cast<std::size_t>(next_id_), PairContacts::kNoSlot);
+  for (std::uint32_t slot = 0; slot < rows_.size(); ++slot) slot_of_id[static_cast<std::size_t>(rows_[slot].id)] = slot;
+  for (std::size_t k = 0; 2 * k < pair_ids.size(); ++k) {
+    for (const Adjacent& e : pair_contacts_.of(slot_of_id.at(static_cast<std::size_t>(pair_ids[2 * k])))) {
+      if (rows_[e.slot].id != pair_ids[2 * k + 1]) continue;
+      pair_contacts_.touching[e.pair] = 1;
+      pair_contacts_.spring[e.pair] = vec_at(pair_springs, 3 * k);
+    }
+  }
+  for (std::size_t k = 0; 2 * k < wall_ids.size(); ++k) {
+    for (WallContact& w : wall_contacts_.of(slot_of_id.at(static_cast<std::size_t>(wall_ids[2 * k])))) {
+      if (w.wall != wall_ids[2 * k + 1]) continue;
+      w.touching = 1;
+      w.spring = vec_at(wall_springs, 3 * k);
+    }
+  }
+}
+
+}  // namespace interstice::dem

@@ -1,0 +1,132 @@
+#include "dem/statistics.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "dem/contact/hertz.h"
+#include "dem/wall_distance.h"
+
+namespace interstice::dem {
+namespace {
+
+constexpr double kFootprintCell = 50e-6;  // [m]
+
+/// Calls body(a, b, pair) for every touching pair, by ascending ids.
+template <class Body>
+void for_touching_pairs(const Simulation& sim, const Body& body) {
+  const auto rows = sim.rows();
+  for (const std::uint32_t slot : sim.slots_by_id()) {
+    for (const Adjacent& e : sim.pair_contacts().of(slot)) {
+      if (!e.second && sim.pair_contacts().touching[e.pair]) body(rows[slot], rows[e.slot], e.pair);
+    }
+  }
+}
+
+/// A key of the 50 um surface cell that holds a point of a wall: which face, and where on it.
+std::array<std::int64_t, 4> surface_cell(const Vec3d& point, const Vec3d& normal) {
+  int face = 0;
+  for (int axis = 1; axis < 3; ++axis) {
+    if (std::fabs(normal[axis]) > std::fabs(normal[face])) face = axis;
+  }
+  std::array<std::int64_t, 4> key{2 * face + (normal[face] > 0 ? 1 : 0), 0, 0, 0};
+  for (int axis = 0; axis < 3; ++axis) {
+    if (axis != face) key[axis + 1] = static_cast<std::int64_t>(std::floor(point[axis] / kFootprintCell));
+  }
+  return key;
+}
+
+}  // namespace
+
+ContactStatistics contact_statistics(const Simulation& sim) {
+  ContactStatistics s;
+  double sum = 0, normal_sum = 0;
+  const SearchSpace space = sim.search_space();
+  for_touching_pairs(sim, [&](const GrainRow& a, const GrainRow& b, std::uint32_t pair) {
+    const Vec3d force = sim.pair_contacts().results[pair].force;
+    const Vec3d apart = separation(a.position(), b.position(), space);
+    const double magnitude = norm(force), distance = norm(apart);
+    ++s.contacts;
+    sum += magnitude;
+    normal_sum += distance > 0 ? std::fabs(dot(force, apart)) / distance : magnitude;
+    s.force_max = std::max(s.force_max, magnitude);
+  });
+  if (s.contacts > 0) {
+    s.force_mean = sum / static_cast<double>(s.contacts);
+    s.normal_force_mean = normal_sum / static_cast<double>(s.contacts);
+  }
+  return s;
+}
+
+WallStatistics wall_statistics(const Simulation& sim, std::size_t wall) {
+  WallStatistics s;
+  Vec3d shear{0, 0, 0};
+  std::vector<std::array<std::int64_t, 4>> cells;
+  const auto rows = sim.rows();
+  for (const std::uint32_t slot : sim.slots_by_id()) {
+    for (const WallContact& c : sim.wall_contacts().of(slot)) {
+      if (c.wall != wall || !c.touching) continue;
+      const GrainRow& g = rows[slot];
+      const WallDistance surface = wall_distance(sim.walls()[wall], g.position());
+      const double pressing = dot(c.force, surface.normal);
+      const Vec3d tangential = c.force - pressing * surface.normal;
+      s.normal_force += pressing;
+      shear -= tangential;  // on the wall: the opposite of what the grain feels
+      s.shear_force_sum += norm(tangential);
+      ++s.contacts;
+      s.contact_area += M_PI * g.radius * (g.radius - surface.distance);
+      cells.push_back(surface_cell(g.position() - surface.distance * surface.normal, surface.normal));
+    }
+  }
+  s.particles = s.contacts;  // a sphere meets a plane or a box in one point
+  s.shear_force = norm(shear);
+  std::sort(cells.begin(), cells.end());
+  const auto distinct = std::unique(cells.begin(), cells.end()) - cells.begin();
+  s.footprint_area = static_cast<double>(distinct) * kFootprintCell * kFootprintCell;
+  return s;
+}
+
+MotionStatistics motion_statistics(const Simulation& sim) {
+  MotionStatistics s;
+  const double gravity = norm(sim.model().gravity);
+  const auto rows = sim.rows();
+  for (const std::uint32_t slot : sim.slots_by_id()) {
+    const GrainRow& g = rows[slot];
+    const double v2 = dot(g.velocity(), g.velocity());
+    s.kinetic_energy += 0.5 * g.mass * (v2 + 0.4 * g.radius * g.radius * dot(g.spin(), g.spin()));
+    s.fall_energy_mean += g.mass * gravity * 2 * g.radius;
+    s.fastest = std::max(s.fastest, std::sqrt(v2));
+  }
+  if (!rows.empty()) s.fall_energy_mean /= static_cast<double>(rows.size());
+  return s;
+}
+
+StepCheck check_step(const Simulation& sim) {
+  StepCheck worst;
+  const SearchSpace space = sim.search_space();
+  const auto consider = [&](double modulus, double radius, double mass, double overlap, std::int64_t a,
+                            std::int64_t b) {
+    const double stiffness = hertz_stiffness(modulus, std::sqrt(radius * std::max(overlap, 0.0)));
+    const double ratio = sim.time_step() * std::sqrt(stiffness / mass);
+    if (ratio > worst.ratio) worst = {ratio, a, b};
+  };
+  const auto rows = sim.rows();
+  for_touching_pairs(sim, [&](const GrainRow& a, const GrainRow& b, std::uint32_t) {
+    const double reach = a.radius + b.radius;
+    consider(sim.constants(a.material, b.material).effective_modulus, a.radius * b.radius / reach,
+             a.mass * b.mass / (a.mass + b.mass), reach - norm(separation(a.position(), b.position(), space)), a.id,
+             b.id);
+  });
+  for (std::size_t slot = 0; slot < rows.size(); ++slot) {
+    for (const WallContact& c : sim.wall_contacts().of(slot)) {
+      if (!c.touching) continue;
+      const GrainRow& g = rows[slot];
+      const double distance = wall_distance(sim.walls()[c.wall], g.position()).distance;
+      consider(sim.constants(g.material, sim.model().walls[c.wall].material).effective_modulus, g.radius, g.mass,
+               g.radius - distance, g.id, -1);
+    }
+  }
+  return worst;
+}
+
+}  // namespace interstice::dem
