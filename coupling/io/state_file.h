@@ -10,7 +10,7 @@
 namespace interstice::io {
 
 struct State {
-  std::map<std::string, std::vector<double>> real;            // bit-exact
+  std::map<std::string, std::vector<double>> real;  // bit-exact
   std::map<std::string, std::vector<std::int64_t>> integer;
   std::map<std::string, std::string> text;
 };

@@ -1,1 +1,197 @@
-// (filled in with its first commit)
+// The writer of trajectory.h5part.
+#include "coupling/io/trajectory.h"
+
+#include <algorithm>
+#include <cstring>
+
+#include "base/error.h"
+#include "coupling/io/atomic_file.h"
+#include "coupling/io/hdf5_handles.h"
+#include "coupling/io/trajectory_layout.h"
+
+namespace interstice::io {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr hsize_t kChunk =
+    65536;  // elements: half a megabyte of doubles, the grain of reading and of compression
+constexpr unsigned kDeflateLevel =
+    1;  // higher levels gain a few percent on mantissas and cost several times the time
+
+[[noreturn]] void cannot_write(const fs::path& path, const std::string& reason) {
+  throw RunError("cannot write " + path.string() + ": " + reason);
+}
+
+void check_lengths(const fs::path& path, const ParticleFrame& frame) {
+  const auto check = [&](const auto& columns) {
+    for (const auto& column : columns) {
+      const std::size_t n = (frame.*column.values).size();
+      if (n == frame.size() || (n == 0 && !layout::required(column.name))) continue;
+      cannot_write(path, std::string("column ") + column.name + " has " + std::to_string(n) + " values for " +
+                             std::to_string(frame.size()) + " particles");
+    }
+  };
+  check(layout::kReal);
+  check(layout::kLong);
+  check(layout::kShort);
+}
+
+Hdf5Handle column_properties(hsize_t elements) {
+  Hdf5Handle properties(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, "describing a column");
+  if (elements == 0) return properties;
+  const hsize_t chunk = std::min(elements, kChunk);
+  checked(H5Pset_chunk(properties, 1, &chunk), "describing a column");
+  checked(H5Pset_shuffle(properties), "describing a column");
+  checked(H5Pset_deflate(properties, kDeflateLevel), "describing a column");
+  return properties;
+}
+
+void write_column(hid_t group, const char* name, hid_t file_type, hid_t memory_type, const void* values,
+                  hsize_t elements) {
+  const Hdf5Handle space = simple_space(elements);
+  const Hdf5Handle dataset(
+      H5Dcreate2(group, name, file_type, space, H5P_DEFAULT, column_properties(elements), H5P_DEFAULT),
+      H5Dclose, "creating a column");
+  if (elements > 0)
+    checked(H5Dwrite(dataset, memory_type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values), "writing a column");
+}
+
+/// Writes the columns that the frame has. A frame without particles cannot tell which it lacks: it gets all
+/// that a run writes, because ParaView shows only what the first frame has.
+template <class Columns>
+void write_columns(hid_t group, const ParticleFrame& frame, const Columns& columns, hid_t file_type,
+                   hid_t memory_type) {
+  for (const auto& column : columns) {
+    const auto& values = frame.*column.values;
+    const bool density = std::strcmp(column.name, "density") == 0;
+    if (values.empty() && (frame.size() > 0 || density)) continue;
+    write_column(group, column.name, file_type, memory_type, values.data(), values.size());
+  }
+}
+
+void write_header(hid_t group, const ParticleFrame& frame) {
+  write_attribute(group, "TimeValue", H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, &frame.time, 1);
+  write_attribute(group, "step", H5T_STD_I64LE, H5T_NATIVE_INT64, &frame.step, 1);
+  std::array<std::int32_t, 3> periodic{};
+  std::copy(frame.periodic.begin(), frame.periodic.end(), periodic.begin());
+  write_attribute(group, "periodic", H5T_STD_I32LE, H5T_NATIVE_INT32, periodic.data(), 3);
+  if (!frame.bounds) return;
+  const Vec3d& lo = frame.bounds->lo;
+  const Vec3d& hi = frame.bounds->hi;
+  const std::array<double, 6> bounds{lo.x, hi.x, lo.y, hi.y, lo.z, hi.z};
+  write_attribute(group, "bounds", H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, bounds.data(), 6);
+}
+
+struct WallRow {
+  const char* kind;
+  std::array<double, layout::kWallValues> values;
+};
+
+WallRow row_of(const Plane& p) {
+  return {"plane", {p.point.x, p.point.y, p.point.z, p.normal.x, p.normal.y, p.normal.z}};
+}
+WallRow row_of(const Box& b) { return {"box", {b.lo.x, b.lo.y, b.lo.z, b.hi.x, b.hi.y, b.hi.z}}; }
+
+void write_walls(hid_t group, const std::string& name, const std::vector<WallPose>& walls) {
+  if (walls.empty()) return;
+  std::size_t name_bytes = 1;
+  for (const WallPose& wall : walls) name_bytes = std::max(name_bytes, wall.name.size());
+  const Hdf5Handle type = layout::wall_type(name_bytes);
+  const std::size_t row_bytes = H5Tget_size(type);
+  std::vector<char> table(row_bytes * walls.size(), '\0');
+  for (std::size_t i = 0; i < walls.size(); ++i) {
+    char* row = table.data() + i * row_bytes;
+    const WallRow wall = std::visit([](const auto& shape) { return row_of(shape); }, walls[i].shape);
+    std::memcpy(row, walls[i].name.data(), walls[i].name.size());
+    std::memcpy(row + name_bytes, wall.kind, std::strlen(wall.kind));
+    std::memcpy(row + name_bytes + layout::kWallKindBytes, wall.values.data(), sizeof wall.values);
+  }
+  const Hdf5Handle space = simple_space(walls.size());
+  const Hdf5Handle dataset(
+      H5Dcreate2(group, name.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Dclose,
+      "creating a wall table");
+  checked(H5Dwrite(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, table.data()), "writing a wall table");
+}
+
+void write_frame(hid_t file, std::int64_t number, const ParticleFrame& frame) {
+  const std::string name = layout::step_name(number);
+  const Hdf5Handle group(H5Gcreate2(file, name.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose,
+                         "creating a frame");
+  write_header(group, frame);
+  write_columns(group, frame, layout::kReal, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE);
+  write_columns(group, frame, layout::kLong, H5T_STD_I64LE, H5T_NATIVE_INT64);
+  write_columns(group, frame, layout::kShort, H5T_STD_I32LE, H5T_NATIVE_INT32);
+  const Hdf5Handle walls(H5Gopen2(file, layout::kWallGroup, H5P_DEFAULT), H5Gclose, "opening the walls");
+  write_walls(walls, name, frame.walls);
+}
+
+void write_empty_trajectory(const fs::path& path) {
+  const Hdf5Session session;
+  try {
+    Hdf5Handle file(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, oldest_format_access()), H5Fclose,
+                    "creating the file");
+    write_text_attribute(file, "format", layout::kFormat);
+    write_attribute(file, "version", H5T_STD_I64LE, H5T_NATIVE_INT64, &layout::kVersion, 1);
+    write_text_attribute(
+        file, "units",
+        "TimeValue s; x y z radius bounds Walls m; velocity_0..2 m/s; omega_0..2 rad/s; density kg/m^3");
+    Hdf5Handle(H5Gcreate2(file, layout::kWallGroup, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose,
+               "creating the walls");
+    file.close("closing the file");
+  } catch (const Hdf5Error& error) {
+    throw RunError(error.what());
+  }
+}
+
+/// Runs change(file) on the open trajectory.
+template <class Change>
+void change_file(const fs::path& path, const Change& change) {
+  const Hdf5Session session;
+  try {
+    Hdf5Handle file(H5Fopen(path.c_str(), H5F_ACC_RDWR, oldest_format_access()), H5Fclose,
+                    "opening the file");
+    change(file.get());
+    file.close("closing the file");
+  } catch (const Hdf5Error& error) {
+    cannot_write(path, error.what());
+  }
+}
+
+}  // namespace
+
+TrajectoryWriter TrajectoryWriter::create(const fs::path& path) {
+  write_atomically(path, write_empty_trajectory);
+  return TrajectoryWriter(path);
+}
+
+TrajectoryWriter TrajectoryWriter::resume(const fs::path& path, double keep_until) {
+  if (!fs::exists(path)) return create(path);
+  TrajectoryWriter writer(path);
+  std::int64_t frames = 0;
+  {
+    const TrajectoryReader reader(path);
+    frames = reader.frames();
+    while (writer.frames_ < frames && !(reader.time(writer.frames_) > keep_until)) ++writer.frames_;
+  }
+  if (writer.frames_ == frames) return writer;
+  change_file(path, [&](hid_t file) {
+    const Hdf5Handle walls(H5Gopen2(file, layout::kWallGroup, H5P_DEFAULT), H5Gclose, "opening the walls");
+    for (std::int64_t frame = writer.frames_; frame < frames; ++frame) {
+      const std::string name = layout::step_name(frame);
+      checked(H5Ldelete(file, name.c_str(), H5P_DEFAULT), "dropping a frame");
+      if (checked(H5Lexists(walls, name.c_str(), H5P_DEFAULT), "looking for a wall table") > 0)
+        checked(H5Ldelete(walls, name.c_str(), H5P_DEFAULT), "dropping a wall table");
+    }
+  });
+  return writer;
+}
+
+void TrajectoryWriter::append(const ParticleFrame& frame) {
+  check_lengths(path_, frame);
+  change_file(path_, [&](hid_t file) { write_frame(file, frames_, frame); });
+  ++frames_;
+}
+
+}  // namespace interstice::io
