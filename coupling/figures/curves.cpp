@@ -42,7 +42,7 @@ void check(const std::vector<CurveFigure>& panels) {
   }
 }
 
-/// The common x range, exactly as far as the data go.
+/// The common x range, as far as the data go.
 Range x_range(const std::vector<CurveFigure>& panels) {
   Range range;
   for (const auto& panel : panels) {
@@ -51,6 +51,10 @@ Range x_range(const std::vector<CurveFigure>& panels) {
     }
   }
   if (range.empty()) return {0, 1};
+  const double slack = 0.02 * (range.hi - range.lo);  // a phase may end just after the last sample
+  for (const auto& mark : panels.front().marks) {
+    if (mark.x > range.hi && mark.x <= range.hi + slack) range.hi = mark.x;
+  }
   if (range.lo == range.hi) {
     const double half = range.lo == 0 ? 1 : 0.05 * std::abs(range.lo);
     return {range.lo - half, range.hi + half};
@@ -98,7 +102,7 @@ Layout laid_out(const std::vector<CurveFigure>& panels, bool marks, bool note) {
   Layout layout;
   const double height = panels.size() == 1 ? 640 : panels.size() == 2 ? 430 : panels.size() == 3 ? 330 : 260;
   const double width = layout.canvas.width - left - legend_width(panels);
-  double y = top_margin + (marks ? 50 : 0);
+  double y = top_margin + (marks ? 30 : 0);
   for (std::size_t i = 0; i < panels.size(); ++i) {
     if (i > 0) y += panels[i].title.empty() ? gap : panel_head;
     layout.frames.push_back({left, y, width, height});

@@ -71,6 +71,10 @@ Colouring colouring(const io::ParticleFrame& frame, const GrainFigure& figure,
     c.hi = c.value[*std::max_element(shown.begin(), shown.end(), less)];
   }
   if (figure.colour == GrainColour::speed) c.lo = 0;
+  if (c.integers) {  // one colour a layer, its number in the middle
+    c.lo -= 0.5;
+    c.hi += 0.5;
+  }
   if (!(c.hi - c.lo > 1e-9 * std::abs(c.hi))) {
     c.lo -= 0.5;
     c.hi += 0.5;
@@ -97,7 +101,7 @@ int rows_for(const Extent& window) {
   if (aspect <= 6) return 1;
   int rows = 1;
   for (int r = 2; r <= 6; ++r) {
-    if (r * (r * full_width / aspect + row_gap) <= 1050) rows = r;
+    if (r * (r * full_width / aspect + row_gap) <= 1350) rows = r;
   }
   return rows;
 }
@@ -163,6 +167,15 @@ std::string row_of(const io::ParticleFrame& frame, const Layout& layout, std::si
          "unset label; unset object; unset colorbox\n";
 }
 
+std::string colour_axis(const Colouring& colour) {
+  const double step = tick_step(colour.hi - colour.lo, 6);
+  std::string commands = fmt::format("set cbrange [{:g}:{:g}]\n", colour.lo, colour.hi);
+  if (!colour.integers) return commands + fmt::format("set cbtics {:g} font ',14'\n", step);
+  return commands + fmt::format("set cbtics {:g},{:g} font ',14'\nset palette maxcolors {:g}\n",
+                                std::ceil(colour.lo), std::max(1.0, std::ceil(step)),
+                                std::max(1.0, colour.hi - colour.lo));
+}
+
 }  // namespace
 
 void write_grains(const std::filesystem::path& png, const io::ParticleFrame& frame,
@@ -177,12 +190,10 @@ void write_grains(const std::filesystem::path& png, const io::ParticleFrame& fra
   const Layout layout = laid_out(window, !figure.note.empty());
 
   std::string script = sequential_palette();
-  const double step = tick_step(colour.hi - colour.lo, 6);
-  script += fmt::format("set cbrange [{:g}:{:g}]; set cbtics {:g} font ',14'\n", colour.lo, colour.hi,
-                        colour.integers ? std::max(1.0, step) : step);
+  script += colour_axis(colour);
   script +=
-      "unset key; set tics out nomirror font ',14' scale 0.6; set border lw 1.1; set format '%g'\nset "
-      "multiplot\n";
+      "unset key; set tics out nomirror font ',14' scale 0.6; set border lw 1.1; set format '%g'\n"
+      "set multiplot\n";
   script += write(layout.canvas, {left, 30, figure.title, 19, "left"});
   script += write(layout.canvas, {left, layout.canvas.height - 22, figure.note, 12, "left tc rgb '#404040'"});
   const double bottom = layout.frames.back().top + layout.frames.back().height;

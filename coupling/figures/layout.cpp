@@ -49,7 +49,7 @@ std::string write(const Canvas& canvas, const Text& text) {
 std::string colour_bar(const Canvas& canvas, const Frame& frame, std::string_view label) {
   return fmt::format(
       "set colorbox vertical user origin screen {:.5f}, screen {:.5f} size screen {:.5f}, screen {:.5f}\n"
-      "set cblabel {} font ',15'\n",
+      "set cblabel {} font ',15' offset 1.2\n",
       canvas.across(frame.left), canvas.up(frame.top + frame.height), frame.width / canvas.width,
       frame.height / canvas.height, string_literal(label));
 }
@@ -71,7 +71,7 @@ double text_width(std::string_view text, double size) {
   std::size_t letters = 0;
   for (const char c : text)
     letters += (static_cast<unsigned char>(c) & 0xC0) != 0x80;  // UTF-8: count lead bytes
-  return static_cast<double>(letters) * size * 0.82;
+  return static_cast<double>(letters) * size * 0.76;
 }
 
 std::string wrapped(std::string_view text, double size, double room) {

@@ -58,6 +58,12 @@ void keep(std::vector<Outline>& outlines, Outline outline, const Extent& extent)
   if (outline.size() >= 3 && area(outline) > least) outlines.push_back(std::move(outline));
 }
 
+bool mostly_solid(const std::vector<Outline>& outlines, const Extent& strip) {
+  double covered = 0;
+  for (const auto& outline : outlines) covered += area(outline);
+  return covered > 0.5 * strip.width() * strip.height();
+}
+
 std::string path_of(const Outline& outline, Point scale) {
   std::string path;
   for (std::size_t i = 0; i <= outline.size(); ++i) {
@@ -105,8 +111,8 @@ Extent widened_to_walls(const std::vector<io::WallPose>& walls, int axis, double
     below.hi[k] = extent.lo[k];
     above.lo[k] = extent.hi[k];
     above.hi[k] = extent.hi[k] + margin[k];
-    if (!cut(walls, axis, at, axes, below).empty()) result.lo[k] = below.lo[k];
-    if (!cut(walls, axis, at, axes, above).empty()) result.hi[k] = above.hi[k];
+    if (mostly_solid(cut(walls, axis, at, axes, below), below)) result.lo[k] = below.lo[k];
+    if (mostly_solid(cut(walls, axis, at, axes, above), above)) result.hi[k] = above.hi[k];
   }
   return result;
 }

@@ -168,8 +168,8 @@ std::string axes_of(const Panel& panel) {
   for (std::size_t k = 0; k < 2; ++k) {
     const char* name = k == 0 ? "x" : "y";
     const double lo = panel.extent.lo[k] * scale[k], hi = panel.extent.hi[k] * scale[k];
-    const double step =
-        tick_step(hi - lo, k == 0 ? 10 : std::clamp(static_cast<int>(panel.frame.height / 45), 1, 6));
+    const double room = k == 0 ? panel.frame.width / 110 : panel.frame.height / 45;
+    const double step = tick_step(hi - lo, std::clamp(static_cast<int>(room), 1, k == 0 ? 10 : 6));
     commands += fmt::format("set {}range [{:.8g}:{:.8g}]; set {}tics {:g}\n", name, lo, hi, name, step);
   }
   const std::string stretched = panel.stretch > 1 ? fmt::format("\nstretched {}×", panel.stretch) : "";
@@ -186,7 +186,10 @@ std::string plot_of(const SliceFigure& figure, const Panel& panel, std::size_t i
   std::string commands = fmt::format("plot data index {} using ", i);
   const bool grid = panel.n[0] > 1 && panel.n[1] > 1;
   if (grid) {
-    commands += "1:2:3 with image pixels";
+    // A bitmap leaves no seams between the cells; drawn cell by cell, cells without a value stay blank.
+    const auto& values = panel.values();
+    const bool blanks = std::any_of(values.begin(), values.end(), [](double v) { return !std::isfinite(v); });
+    commands += blanks ? "1:2:3 with image pixels" : "1:2:3 with image";
   } else {  // gnuplot's image needs two rows and two columns
     commands += fmt::format("1:2:({:.8g}):({:.8g}):3 with boxxyerror fillstyle solid 1.0 noborder lc palette",
                             0.5 * panel.cell[0] * panel.scale()[0], 0.5 * panel.cell[1] * panel.scale()[1]);
