@@ -1,1 +1,52 @@
-// (filled in with its first commit)
+#include "coupling/scene/read_scene.h"
+
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "coupling/scene/document.h"
+#include "coupling/scene/overrides.h"
+#include "coupling/scene/readers.h"
+
+namespace interstice::scene {
+
+Scene read_scene(const std::string& path, const std::vector<std::string>& overrides,
+                 std::vector<std::string>* warnings) {
+  return read_scene_text(read_text_file(path), path, overrides, warnings);
+}
+
+Scene read_scene_text(std::string_view text, const std::string& source,
+                      const std::vector<std::string>& overrides, std::vector<std::string>* warnings) {
+  Value document = parse_document(text, source);
+  if (!document.place.source) document.place = {std::make_shared<const std::string>(source), 1, 1};
+  Problems problems;
+  for (const std::string& assignment : overrides) apply_override(document, assignment, problems);
+
+  const TableReader root(&document, section(""), "", document.place, problems);
+  Scene scene;
+  scene.file = source;
+  scene.title = root.text("title");
+  if (root.has("domain")) scene.domain = read_domain(root.raw("domain"), root.place("domain"), problems);
+  scene.materials = read_materials(root.raw("materials"), problems);
+  scene.contact = read_contact(root.raw("contact"), root.place("contact"), problems);
+  scene.particles = read_particles(root, source);
+  scene.walls = read_walls(root);
+  scene.phases = read_phases(root);
+
+  const TableReader time(root.raw("time"), section("time"), "time", root.place(), problems);
+  scene.step = read_time_step(time);
+  scene.seed = static_cast<std::uint64_t>(time.integer("seed").value_or(1));
+
+  const TableReader output(root.raw("output"), section("output"), "output", root.place(), problems);
+  scene.output = {output.quantity("trajectory"), output.quantity("series"), output.quantity("checkpoint")};
+  scene.fields = read_fields(root);
+
+  check_scene(scene, document, problems);
+  problems.throw_if_any();
+  if (warnings) {
+    const auto found = problems.warnings();
+    warnings->insert(warnings->end(), found.begin(), found.end());
+  }
+  return scene;
+}
+
+}  // namespace interstice::scene

@@ -23,6 +23,8 @@ struct Domain {
   std::array<Boundary, 3> boundary{Boundary::open, Boundary::open, Boundary::open};
   std::array<std::string, 3> wall_material;  // per axis, where the boundary is a wall
   Vec3d gravity{0, 0, -9.81};                // [m/s^2]
+
+  bool operator==(const Domain&) const = default;
 };
 
 struct Material {
@@ -30,6 +32,8 @@ struct Material {
   double density = 0;         // [kg/m^3]
   double youngs_modulus = 0;  // [Pa]
   double poisson_ratio = 0;   // [-]
+
+  bool operator==(const Material&) const = default;
 };
 
 struct ContactPair {
@@ -38,6 +42,8 @@ struct ContactPair {
   double friction = 0;                 // [-]
   double rolling_friction = 0;         // [-]
   double cohesion_energy_density = 0;  // [J/m^3]
+
+  bool operator==(const ContactPair&) const = default;
 };
 
 struct Contact {
@@ -47,21 +53,26 @@ struct Contact {
   RollingLaw rolling = RollingLaw::none;
   CohesionLaw cohesion = CohesionLaw::none;
   std::vector<ContactPair> pairs;
+
+  bool operator==(const Contact&) const = default;
 };
 
 enum class SizeLaw { single, normal, lognormal, uniform, bimodal, table };
 enum class SizeWeight { number, mass };
 
-/// A distribution of diameters [m], truncated to [min, max]. By number, or by mass (then the density given is that
-/// of mass over diameter, and the numbers follow from it).
+/// A distribution of diameters [m], truncated to [min, max]. By number, or by mass (then the density given is
+/// that of mass over diameter, and the numbers follow from it).
 struct Diameters {
   SizeLaw law = SizeLaw::single;
   SizeWeight weight = SizeWeight::number;
-  double mean = 0, sd = 0;      // single: mean; normal: both [m]; lognormal: mean is the median [m], sd that of ln d [-]
-  double mean2 = 0, sd2 = 0;    // bimodal: the second normal mode [m]
-  double share2 = 0;            // bimodal: the second mode's share (of number or mass, as `weight` says)
-  double min = 0, max = 0;      // [m]
+  double mean = 0,
+         sd = 0;  // single: mean; normal: both [m]; lognormal: mean is the median [m], sd that of ln d [-]
+  double mean2 = 0, sd2 = 0;  // bimodal: the second normal mode [m]
+  double share2 = 0;          // bimodal: the second mode's share (of number or mass, as `weight` says)
+  double min = 0, max = 0;    // [m]
   std::vector<double> table_diameter, table_share;  // table: class edges (n + 1) [m], shares (n)
+
+  bool operator==(const Diameters&) const = default;
 };
 
 struct RainInsertion {
@@ -69,18 +80,24 @@ struct RainInsertion {
   Box box;                   // grains lie wholly inside it
   Vec3d velocity{0, 0, 0};   // [m/s]
   double interval = 0.5e-3;  // time between attempts [s]
+
+  bool operator==(const RainInsertion&) const = default;
 };
 
 /// One grain of a placement list.
 struct PlacedGrain {
-  Vec3d position;               // [m]
-  double diameter = 0;          // [m]
-  Vec3d velocity{0, 0, 0};      // [m/s]
-  Vec3d spin{0, 0, 0};          // [rad/s]
+  Vec3d position;           // [m]
+  double diameter = 0;      // [m]
+  Vec3d velocity{0, 0, 0};  // [m/s]
+  Vec3d spin{0, 0, 0};      // [rad/s]
+
+  bool operator==(const PlacedGrain&) const = default;
 };
 struct ListInsertion {
-  std::string file;
+  std::string file;  // where the grains came from, for messages
   std::vector<PlacedGrain> grains;
+
+  bool operator==(const ListInsertion& other) const { return grains == other.grains; }
 };
 
 struct Particles {
@@ -90,11 +107,15 @@ struct Particles {
   Diameters diameter;                 // rain only
   std::optional<RainInsertion> rain;  // exactly one of the two
   std::optional<ListInsertion> list;
+
+  bool operator==(const Particles&) const = default;
 };
 
 struct Motion {
   std::string phase;
   Vec3d velocity{0, 0, 0};  // [m/s]
+
+  bool operator==(const Motion&) const = default;
 };
 
 struct Wall {
@@ -103,6 +124,8 @@ struct Wall {
   Shape shape;
   bool watch = false;  // columns of its own in series.csv
   std::vector<Motion> motion;
+
+  bool operator==(const Wall&) const = default;
 };
 
 struct Phase {
@@ -110,48 +133,69 @@ struct Phase {
   std::optional<double> duration;  // [s]; or until:
   bool until_inserted = false;
   bool until_settled = false;
-  double at_most = 0;                  // [s]
-  double settled_energy = 1e-3;        // kinetic energy per grain below this fraction of m g d ...
-  double settled_time = 1e-3;          // ... for this long [s]
+  double at_most = 0;            // [s]
+  double settled_energy = 1e-3;  // kinetic energy per grain below this fraction of m g d ...
+  double settled_time = 1e-3;    // ... for this long [s]
+
+  bool operator==(const Phase&) const = default;
 };
 
 struct TimeStep {
-  double rayleigh = 0.2;         // fraction of the Rayleigh time
-  double collision = 0.04;       // fraction of the collision time
-  std::optional<double> fixed;   // [s], instead of the two
-  bool allow_unstable = false;   // lets a fixed step above 0.2 of the collision time through
+  double rayleigh = 0.2;        // fraction of the Rayleigh time
+  double collision = 0.04;      // fraction of the collision time
+  std::optional<double> fixed;  // [s], instead of the two
+  bool allow_unstable = false;  // lets a fixed step above 0.2 of the collision time through
+
+  bool operator==(const TimeStep&) const = default;
 };
 
 struct Output {
   double trajectory = 0;  // interval [s]; 0: none
   double series = 0;      // interval [s]; 0: none
   double checkpoint = 0;  // interval of wall-clock seconds [s]; 0: only at the end and at a stop
+
+  bool operator==(const Output&) const = default;
 };
 
 /// "x=4.5 mm": the plane of voxels that holds this coordinate.
 struct Slice {
   int axis = 0;
   double at = 0;  // [m]
+
+  bool operator==(const Slice&) const = default;
 };
 /// "y@x=9 mm,z=35 um": the row of voxels along `axis` through the point (the component of `axis` is ignored).
 struct Line {
   int axis = 1;
   Vec3d at;  // [m]
+
+  bool operator==(const Line&) const = default;
+};
+
+/// Columns over the field's box, of which the layer's packing and its evenness are computed.
+struct FieldLayers {
+  double z_lo = 0, z_hi = 0;           // [m]
+  std::array<int, 2> columns{40, 10};  // along x and y
+
+  bool operator==(const FieldLayers&) const = default;
 };
 
 struct Field {
   std::string name;
-  double voxel = 0;                     // edge [m]
+  double voxel = 0;  // edge [m]
   Box box;
-  std::optional<double> every;          // interval [s]; also at the end of each phase, always
-  double average = 0;                   // averaging length [m]; 0: none
+  std::optional<double> every;  // interval [s]; also at the end of each phase, always
+  double average = 0;           // averaging length [m]; 0: none
   std::vector<Slice> slices;
   std::vector<Line> lines;
+  FieldLayers layers;  // default: the height of the box
   bool periodic_from_domain = true;
+
+  bool operator==(const Field&) const = default;
 };
 
 struct Scene {
-  std::string file;   // where it came from, for messages
+  std::string file;  // where it came from, for messages
   std::string title;
   Domain domain;
   std::vector<Material> materials;
@@ -163,6 +207,8 @@ struct Scene {
   std::uint64_t seed = 1;
   Output output;
   std::vector<Field> fields;
+
+  bool operator==(const Scene&) const = default;
 };
 
 }  // namespace interstice::scene
