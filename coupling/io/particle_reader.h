@@ -1,10 +1,14 @@
-// Particle files of any kind, frame by frame.
+// Particle files of any kind, frame by frame. Frames are numbered from 0 in the order of the file; grains
+// come sorted by id where the file has ids (so that sums do not depend on the order of writing), else in file
+// order.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <map>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "coupling/io/particle_frame.h"
 
@@ -21,11 +25,27 @@ class ParticleReader {
   virtual ~ParticleReader() = default;
   /// Reads the next frame; false at the end. Throws InputError("file:line: what; allowed; remedy").
   virtual bool next(ParticleFrame& frame) = 0;
+  /// Passes over the next frame without reading its numbers; false at the end. Throws as next() does.
+  virtual bool skip();
+  /// How many frames there are, where the kind knows without reading on; else -1.
+  virtual std::int64_t frames() const { return -1; }
   /// What kind of file this is, for messages and summaries ("LAMMPS dump", "CSV", "H5Part").
   virtual std::string kind() const = 0;
+  /// What looked odd so far but was read: one line each, no line twice.
+  const std::vector<std::string>& warnings() const { return warnings_; }
+
+ protected:
+  void warn(const std::string& line);
+  /// Warns, once a file, when the grains' sizes are no powder's: most likely the unit of length is another.
+  void check_sizes(const ParticleFrame& frame, const std::filesystem::path& path);
+
+ private:
+  std::vector<std::string> warnings_;
+  bool sizes_warned_ = false;
 };
 
 /// Recognises the kind by content first, then by name.
-std::unique_ptr<ParticleReader> open_particles(const std::filesystem::path& path, const ReaderOptions& options);
+std::unique_ptr<ParticleReader> open_particles(const std::filesystem::path& path,
+                                               const ReaderOptions& options);
 
 }  // namespace interstice::io

@@ -1,0 +1,71 @@
+// Tables of particles in text: which column is what, and how a row becomes an entry of a frame.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "coupling/io/particle_frame.h"
+#include "coupling/io/text_lines.h"
+
+namespace interstice::io {
+
+enum class Quantity { none, id, x, y, z, radius, diameter, vx, vy, vz, wx, wy, wz, density, material };
+
+/// The names that `quantity` may have in a kind of file, the preferred first.
+struct ColumnNames {
+  Quantity quantity;
+  std::string ours;  // the name that --columns uses
+  std::vector<std::string> names;
+};
+
+/// One entry per column of the file.
+struct ColumnMap {
+  struct Column {
+    Quantity quantity = Quantity::none;
+    std::string name;   // as the file has it
+    double factor = 1;  // to SI
+  };
+  std::vector<Column> columns;
+
+  const Column* find(Quantity quantity) const;
+};
+
+/// How the cells of a row are told apart: by blanks, or by one character.
+struct Separator {
+  char character = ' ';
+  bool blanks() const { return character == ' '; }
+};
+
+std::vector<std::string_view> split(std::string_view line, Separator separator);
+
+/// Finds the quantities among the columns `present`. `given` (--columns) comes before `known`. Throws
+/// InputError at `where` when x, y, z or a size is missing, or a name fits two columns.
+ColumnMap map_columns(const std::vector<std::string>& present, const std::vector<ColumnNames>& known,
+                      const std::map<std::string, std::string>& given, const std::string& where);
+
+/// Where in a file we are. The text is made only for a message: rows are many.
+struct Place {
+  const TextLines& lines;
+  std::int64_t frame = -1;  // -1: the kind has one frame only
+  std::string text() const;
+};
+
+/// Appends one row to `frame` (a diameter goes to `radius` halved). Throws InputError at `place` for a cell
+/// that is no finite number, a size that is not positive, or a row with more or fewer cells than columns.
+void append_row(std::string_view line, Separator separator, const ColumnMap& map, const Place& place,
+                ParticleFrame& frame);
+
+/// A number in full: no blanks, no rest. Infinities and NaN parse; false only for what is no number.
+bool parse_number(std::string_view text, double& value);
+bool parse_number(std::string_view text, std::int64_t& value);
+
+/// Sorts all columns by id. Returns the number of ids that occur more than once.
+std::int64_t sort_by_id(ParticleFrame& frame);
+
+/// "a, b, c".
+std::string list_of(const std::vector<std::string>& names);
+
+}  // namespace interstice::io

@@ -1,0 +1,203 @@
+// Good particle files of every kind that is read.
+#include "reader_testing.h"
+
+namespace interstice::io::testing {
+namespace {
+
+using Readers = ReaderTest;
+
+const char* const small_dump =
+    "ITEM: TIMESTEP\n7\nITEM: NUMBER OF ATOMS\n3\nITEM: BOX BOUNDS pp ff ss\n0 2e-4\n-1e-4 1e-4\n0 3e-4\n"
+    "ITEM: ATOMS id type diameter y x z vx \n"
+    "3 2 4e-05 1e-5 2e-5 3e-5 0.5 \n"
+    "1 1 2e-05 4e-5 5e-5 6e-5 +1.5 \n"
+    "2 1 3e-05 7e-5 8e-5 9e-5 -2 \n";
+
+TEST_F(Readers, DumpTakesColumnsByNameAndSortsById) {
+  const auto frames = read_all(write("a.dump", small_dump));
+  ASSERT_EQ(frames.size(), 1u);
+  const auto& f = frames[0];
+  EXPECT_EQ(f.id, (std::vector<std::int64_t>{1, 2, 3}));
+  EXPECT_EQ(f.x, (std::vector<double>{5e-5, 8e-5, 2e-5}));
+  EXPECT_EQ(f.y, (std::vector<double>{4e-5, 7e-5, 1e-5}));
+  EXPECT_EQ(f.z, (std::vector<double>{6e-5, 9e-5, 3e-5}));
+  EXPECT_EQ(f.radius, (std::vector<double>{1e-5, 1.5e-5, 2e-5}));
+  EXPECT_EQ(f.vx, (std::vector<double>{1.5, -2, 0.5}));
+  EXPECT_TRUE(f.vy.empty());
+  EXPECT_EQ(f.material, (std::vector<std::int32_t>{1, 1, 2}));
+  EXPECT_EQ(f.step, 7);
+  EXPECT_TRUE(std::isnan(f.time));
+  ASSERT_TRUE(f.bounds);
+  EXPECT_EQ(*f.bounds, (Box{{0, -1e-4, 0}, {2e-4, 1e-4, 3e-4}}));
+  EXPECT_EQ(f.periodic, (std::array<bool, 3>{true, false, false}));
+}
+
+TEST_F(Readers, DumpWithWindowsLineEndsAndWithoutFlags) {
+  std::string text = replaced(small_dump, " pp ff ss", "");
+  std::string crlf;
+  for (const char c : text) crlf += c == '\n' ? std::string("\r\n") : std::string(1, c);
+  const auto frames = read_all(write("a.dump", crlf));
+  ASSERT_EQ(frames.size(), 1u);
+  EXPECT_EQ(frames[0].size(), 3u);
+  EXPECT_EQ(frames[0].periodic, (std::array<bool, 3>{false, false, false}));
+}
+
+TEST_F(Readers, DumpIsKnownByContentWhateverItsName) {
+  EXPECT_EQ(open_particles(write("a.csv", small_dump), {})->kind(), "LAMMPS dump");
+}
+
+TEST_F(Readers, DumpFramesFollowOneAnotherAndCanBeSkipped) {
+  const auto path = write("a.dump", small_dump + replaced(small_dump, "\n7\n", "\n9\n"));
+  const auto frames = read_all(path);
+  ASSERT_EQ(frames.size(), 2u);
+  EXPECT_EQ(frames[1].step, 9);
+  const auto reader = open_particles(path, {});
+  ParticleFrame frame;
+  EXPECT_TRUE(reader->skip());
+  EXPECT_TRUE(reader->next(frame));
+  EXPECT_EQ(frame.step, 9);
+  EXPECT_FALSE(reader->skip());
+  EXPECT_FALSE(reader->next(frame));
+}
+
+TEST_F(Readers, DumpWithTimeAndUnitsBecomesSi) {
+  const auto text = "ITEM: UNITS\nmicro\nITEM: TIME\n250\n" + replaced(small_dump, "8e-5", "80");
+  const auto frames = read_all(write("a.dump", text + replaced(small_dump, "8e-5", "80")));
+  ASSERT_EQ(frames.size(), 2u);
+  EXPECT_DOUBLE_EQ(frames[0].time, 250e-6);
+  EXPECT_DOUBLE_EQ(frames[0].x[1], 80e-6);
+  EXPECT_DOUBLE_EQ(frames[0].vx[0], 1.5);   // um/us
+  EXPECT_DOUBLE_EQ(frames[1].x[1], 80e-6);  // the unit is said once a file
+}
+
+TEST_F(Readers, LengthUnitScalesPositionsSizesAndBox) {
+  ReaderOptions options;
+  options.length_unit = 1e-3;
+  options.length_unit_given = true;
+  const auto frames = read_all(write("a.dump", small_dump), options);
+  EXPECT_DOUBLE_EQ(frames[0].x[0], 5e-8);
+  EXPECT_DOUBLE_EQ(frames[0].radius[0], 1e-8);
+  EXPECT_DOUBLE_EQ(frames[0].bounds->hi.x, 2e-7);
+}
+
+TEST_F(Readers, DumpScaledCoordinatesAreUnscaled) {
+  const auto text = replaced(small_dump, "diameter y x z", "diameter ys xs zs");
+  const auto frames =
+      read_all(write("a.dump", replaced(text, "2 1 3e-05 7e-5 8e-5 9e-5", "2 1 3e-05 0.25 0.5 0.75")));
+  EXPECT_DOUBLE_EQ(frames[0].x[1], 1e-4);
+  EXPECT_DOUBLE_EQ(frames[0].y[1], -0.5e-4);
+  EXPECT_DOUBLE_EQ(frames[0].z[1], 2.25e-4);
+}
+
+TEST_F(Readers, DumpUnwrappedCoordinatesAreTaken) {
+  const auto frames = read_all(write("a.dump", replaced(small_dump, "y x z", "yu xu zu")));
+  EXPECT_DOUBLE_EQ(frames[0].x[0], 5e-5);
+}
+
+// Box 0..10, 0..8, 0..6 with tilts 2, -1, 3: the bounds around it are -1..12 (0 + min(0, 2, -1, 1), 10 + max)
+// and 0..11.
+TEST_F(Readers, DumpTiltedBoxIsUnscaledByItsEdges) {
+  const auto frames = read_all(write("a.dump",
+                                     "ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n1\nITEM: BOX BOUNDS xy xz yz "
+                                     "pp pp pp\n-1 12 2\n0 11 -1\n0 6 3\n"
+                                     "ITEM: ATOMS id radius xs ys zs\n1 0.01 0.5 0.25 0.5\n"));
+  EXPECT_DOUBLE_EQ(frames[0].x[0], 0.5 * 10 + 0.25 * 2 + 0.5 * -1);
+  EXPECT_DOUBLE_EQ(frames[0].y[0], 0.25 * 8 + 0.5 * 3);
+  EXPECT_DOUBLE_EQ(frames[0].z[0], 0.5 * 6);
+}
+
+TEST_F(Readers, DumpOfNoGrainsIsAFrame) {
+  const auto frames =
+      read_all(write("a.dump",
+                     "ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n0\nITEM: BOX BOUNDS ff ff ff\n0 1\n0 "
+                     "1\n0 1\nITEM: ATOMS id x y z radius\n"));
+  ASSERT_EQ(frames.size(), 1u);
+  EXPECT_EQ(frames[0].size(), 0u);
+}
+
+TEST_F(Readers, ColumnsOptionNamesTheFilesColumns) {
+  ReaderOptions options;
+  options.columns = {{"radius", "c_size"}, {"x", "c_pos[1]"}};
+  const auto text = replaced(replaced(small_dump, "diameter", "c_size"), " x ", " c_pos[1] ");
+  const auto frames = read_all(write("a.dump", text), options);
+  EXPECT_DOUBLE_EQ(frames[0].radius[0], 2e-5);
+  EXPECT_DOUBLE_EQ(frames[0].x[0], 5e-5);
+}
+
+TEST_F(Readers, SamplesOfAllKindsHoldTheSameGrains) {
+  const auto dump = read_all(sample("two-frames.dump"));
+  const auto packed = read_all(sample("two-frames-gz.dump.gz"));
+  const auto csv = read_all(sample("micrometres.csv"));
+  const auto yade = read_all(sample("yade.txt"));
+  ASSERT_EQ(dump.size(), 2u);
+  ASSERT_EQ(packed.size(), 2u);
+  ASSERT_EQ(csv.size(), 1u);
+  ASSERT_EQ(yade.size(), 1u);
+  ASSERT_EQ(dump[0].size(), 150u);
+  EXPECT_EQ(dump[1].z, packed[1].z);
+  EXPECT_LT(dump[1].z[0], dump[0].z[0]);
+  for (const auto* other : {&packed[0], &csv[0], &yade[0]}) {
+    ASSERT_EQ(other->size(), 150u);
+    for (std::size_t i = 0; i < 150; ++i) {
+      EXPECT_NEAR(other->x[i], dump[0].x[i], 1e-15);
+      EXPECT_NEAR(other->y[i], dump[0].y[i], 1e-15);
+      EXPECT_NEAR(other->z[i], dump[0].z[i], 1e-15);
+      EXPECT_NEAR(other->radius[i], dump[0].radius[i], 1e-15);
+    }
+  }
+}
+
+TEST_F(Readers, CsvUnitsPerColumnAndLengthUnitForTheRest) {
+  ReaderOptions options;
+  options.length_unit = 1e-3;
+  options.length_unit_given = true;
+  const auto text =
+      "\xef\xbb\xbf# made by hand\r\n\"X [\xc2\xb5m]\";y (mm);z;Radius;vx [mm/s];density "
+      "[g/cm^3]\r\n1;2;3;4;5;7.8";
+  const auto path = write("a.csv", text);
+  const auto frames = read_all(path, options);
+  ASSERT_EQ(frames[0].size(), 1u);
+  EXPECT_DOUBLE_EQ(frames[0].x[0], 1e-6);
+  EXPECT_DOUBLE_EQ(frames[0].y[0], 2e-3);
+  EXPECT_DOUBLE_EQ(frames[0].z[0], 3e-3);
+  EXPECT_DOUBLE_EQ(frames[0].radius[0], 4e-3);
+  EXPECT_DOUBLE_EQ(frames[0].vx[0], 5e-3);
+  EXPECT_DOUBLE_EQ(frames[0].density[0], 7800);
+}
+
+TEST_F(Readers, CsvWithItsHeaderInAComment) {
+  const auto frames = read_all(write("a.csv", "# x, y, z, radius\n1e-3,2e-3,3e-3,4e-5\n"));
+  EXPECT_DOUBLE_EQ(frames[0].radius[0], 4e-5);
+}
+
+TEST_F(Readers, CsvWithBlanksBetweenColumnsAndUnitsApart) {
+  const auto frames = read_all(write("a.txt", "x [um] y [um] z [um] r [um]\n1 2 3 4\n\n5 6 7 8\n"));
+  ASSERT_EQ(frames[0].size(), 2u);
+  EXPECT_DOUBLE_EQ(frames[0].radius[1], 8e-6);
+}
+
+TEST_F(Readers, YadeTextWithoutAnyHeader) {
+  const auto path = write("a.txt", "0.001\t0.002\t0.003\t4e-05\n0.002\t0.002\t0.003\t5e-05\n");
+  const auto frames = read_all(path);
+  ASSERT_EQ(frames[0].size(), 2u);
+  EXPECT_DOUBLE_EQ(frames[0].radius[1], 5e-5);
+}
+
+TEST_F(Readers, SizesOfNoPowderAreWarnedOf) {
+  const auto reader = open_particles(write("a.csv", "x,y,z,radius\n100,200,300,20\n"), {});
+  ParticleFrame frame;
+  ASSERT_TRUE(reader->next(frame));
+  ASSERT_EQ(reader->warnings().size(), 1u);
+  EXPECT_NE(reader->warnings()[0].find("--length-unit"), std::string::npos);
+}
+
+TEST_F(Readers, RepeatedIdsAreWarnedOf) {
+  const auto reader = open_particles(write("a.dump", replaced(small_dump, "\n2 1", "\n1 1")), {});
+  ParticleFrame frame;
+  ASSERT_TRUE(reader->next(frame));
+  EXPECT_EQ(frame.size(), 3u);
+  ASSERT_EQ(reader->warnings().size(), 1u);
+}
+
+}  // namespace
+}  // namespace interstice::io::testing
