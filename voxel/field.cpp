@@ -1,1 +1,159 @@
-// (filled in with its first commit)
+#include "voxel/field.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "base/error.h"
+#include "base/parallel.h"
+#include "voxel/accumulate.h"
+#include "voxel/average.h"
+#include "voxel/bins.h"
+#include "voxel/grids.h"
+#include "voxel/sum.h"
+#include "voxel/walls.h"
+
+namespace interstice::voxel {
+
+namespace {
+
+void check(const SpheresView& spheres, const FieldRequest& request) {
+  const Lattice& lattice = request.lattice;
+  check_lattice(lattice);
+  if (lattice.h.x != lattice.h.y || lattice.h.x != lattice.h.z)
+    throw InputError("fields need cubic cells; the lattice's edges differ");
+  if (request.method == Method::subsample && (request.subsample < 1 || request.subsample > 1000))
+    throw InputError("subsample is " + std::to_string(request.subsample) +
+                     " points per edge; 1 to 1000 are possible");
+  if (!(std::isfinite(request.average_length) && request.average_length >= 0))
+    throw InputError("the averaging length must be finite and not negative");
+  if (!(std::isfinite(request.density) && request.density >= 0))
+    throw InputError("the density must be finite and not negative");
+  check_spheres(spheres, lattice, request.periodic);
+}
+
+// What the spheres themselves bring into the box, apart from any voxel.
+struct Inside {
+  std::int64_t particles = 0;
+  CompensatedSum volume, mass;
+};
+
+double clipped_volume(const Lattice& lattice, const PlacedSphere& sphere) {
+  const CellRange cells = bounding_cells(lattice, sphere), box = all_cells(lattice);
+  if (!touches(lattice, sphere, box)) return 0;
+  for (int axis = 0; axis < 3; ++axis)
+    if (cells.lo[axis] < box.lo[axis] || cells.hi[axis] > box.hi[axis])
+      return sphere_range_volume(lattice, sphere, box);
+  return 4 * std::numbers::pi / 3 * (sphere.radius * sphere.radius * sphere.radius);
+}
+
+Inside spheres_inside(const SpheresView& spheres, const FieldRequest& request) {
+  const Lattice& lattice = request.lattice;
+  const Blocks blocks{spheres.count, 4096};
+  std::vector<Inside> partial(blocks.count());
+  for_each_block(blocks, [&](std::size_t b, std::size_t begin, std::size_t end) {
+    for (std::size_t s = begin; s < end; ++s) {
+      const PlacedSphere sphere = place(lattice, spheres, s);
+      const ImageRange images = images_of(lattice, sphere, request.periodic);
+      double volume = 0;
+      bool touching = false;
+      std::array<std::int32_t, 3> m;
+      for (m[0] = images.lo[0]; m[0] <= images.hi[0]; ++m[0])
+        for (m[1] = images.lo[1]; m[1] <= images.hi[1]; ++m[1])
+          for (m[2] = images.lo[2]; m[2] <= images.hi[2]; ++m[2]) {
+            const PlacedSphere image = moved(sphere, lattice, m);
+            volume += clipped_volume(lattice, image);
+            touching = touching || touches(lattice, image, all_cells(lattice));
+          }
+      partial[b].particles += touching;
+      partial[b].volume.add(volume);
+      partial[b].mass.add(volume * (spheres.density ? spheres.density[s] : request.density));
+    }
+  });
+  Inside all;
+  for (const Inside& part : partial) {
+    all.particles += part.particles;
+    all.volume.add(part.volume.value());
+    all.mass.add(part.mass.value());
+  }
+  return all;
+}
+
+FieldSums sums_of(const Lattice& lattice, const Inside& inside, const std::vector<BlockResult>& blocks) {
+  FieldSums sums;
+  sums.particles = inside.particles;
+  sums.solid_volume_particles = inside.volume.value();
+  sums.mass = inside.mass.value();
+  CompensatedSum solid, wall, written;
+  std::int64_t covered = 0;
+  bool first = true;
+  for (const BlockResult& block : blocks) {
+    solid.add(block.solid);
+    wall.add(block.wall);
+    written.add(block.written);
+    covered += block.cells;
+    sums.negative_voxels += block.negative;
+    sums.void_min = first ? block.void_min : std::min(sums.void_min, block.void_min);
+    sums.void_max = first ? block.void_max : std::max(sums.void_max, block.void_max);
+    first = false;
+  }
+  if (covered < lattice.cells()) {  // the rest of the lattice is empty
+    sums.void_min = first ? 1.0 : std::min(sums.void_min, 1.0);
+    sums.void_max = first ? 1.0 : std::max(sums.void_max, 1.0);
+  }
+  const double cell = lattice.cell_volume();
+  sums.solid_volume_field = solid.value() * cell;
+  sums.written_solid_volume = written.value() * cell;
+  sums.available_volume = (static_cast<double>(lattice.cells()) - wall.value()) * cell;
+  return sums;
+}
+
+// The cells of all blocks that hold spheres, as one range; empty without spheres.
+CellRange occupied_cells(const Lattice& lattice, const Bins& bins) {
+  const BlockGrid grid(lattice);
+  CellRange occupied;
+  bool first = true;
+  for (const std::uint64_t key : bins.keys) {
+    const CellRange cells = block_cells(lattice, grid.block(key));
+    for (int axis = 0; axis < 3; ++axis) {
+      occupied.lo[axis] = first ? cells.lo[axis] : std::min(occupied.lo[axis], cells.lo[axis]);
+      occupied.hi[axis] = first ? cells.hi[axis] : std::max(occupied.hi[axis], cells.hi[axis]);
+    }
+    first = false;
+  }
+  return occupied;
+}
+
+}  // namespace
+
+Field compute_field(const SpheresView& spheres, const Solids& solids, const FieldRequest& request) {
+  openvdb::initialize();
+  check(spheres, request);
+  const Lattice& lattice = request.lattice;
+  const bool mass = spheres.density || request.density > 0, averaged = request.average_length > 0;
+  const Solids walls = relative_to(solids, lattice);
+  const std::vector<WallBlock> walled = wall_blocks(walls, lattice);
+  const Bins bins = bin_spheres(spheres, lattice, request.periodic);
+
+  DenseShares dense;
+  std::array<Window, 3> windows;
+  const CellRange occupied = occupied_cells(lattice, bins);
+  if (averaged && !occupied.empty()) {
+    windows = averaging_windows(lattice, request.average_length, request.periodic);
+    dense = dense_shares(lattice, occupied, windows, !walled.empty());
+  }
+  std::vector<BlockResult> blocks =
+      accumulate({spheres, request, bins, walls, walled, mass, dense.range.empty() ? nullptr : &dense});
+
+  Field field;
+  field.lattice = lattice;
+  field.sums = sums_of(lattice, spheres_inside(spheres, request), blocks);
+  fill_grids(request, !solids.empty(), mass, blocks, field);
+  if (averaged) {
+    if (!dense.range.empty()) average(lattice, windows, dense);
+    fill_averaged_grids(request, dense, field);
+  }
+  return field;
+}
+
+}  // namespace interstice::voxel

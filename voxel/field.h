@@ -20,25 +20,35 @@ struct FieldRequest {
   Lattice lattice;
   std::array<bool, 3> periodic{false, false, false};  // images of grains across the lattice box's faces
   Method method = Method::exact;
-  int subsample = 0;                                  // points per voxel edge, for Method::subsample
-  double average_length = 0;                          // edge of the averaging cube [m]; 0: no averaged grids
-  double density = 0;                                 // [kg/m^3] used where spheres carry none; 0: no mass density
+  int subsample = 0;          // points per voxel edge, for Method::subsample
+  double average_length = 0;  // edge of the averaging cube [m]; 0: no averaged grids
+  double density = 0;         // [kg/m^3] used where spheres carry none; 0: no mass density
 };
 
 /// Sums taken in double before anything is rounded to a grid's floats.
 struct FieldSums {
-  std::int64_t particles = 0;           // spheres that touch the box
-  double solid_volume_particles = 0;    // [m^3] the spheres' volume inside the box, sphere by sphere
-  double solid_volume_field = 0;        // [m^3] summed over voxels
-  double available_volume = 0;          // [m^3] box minus walls
-  double mass = 0;                      // [kg] inside the box
-  double void_min = 0, void_max = 0;    // over all voxels
-  std::int64_t negative_voxels = 0;     // voxels with void fraction < -1e-12
-  double written_solid_volume = 0;      // [m^3] summed over the float grid
+  std::int64_t particles = 0;         // spheres that touch the box
+  double solid_volume_particles = 0;  // [m^3] the spheres' volume inside the box, sphere by sphere
+  double solid_volume_field = 0;      // [m^3] summed over voxels
+  double available_volume = 0;        // [m^3] box minus walls
+  double mass = 0;                    // [kg] inside the box
+  double void_min = 0, void_max = 0;  // over all voxels
+  std::int64_t negative_voxels = 0;   // voxels with void fraction < -1e-12
+  double written_solid_volume = 0;    // [m^3] summed over the float grid
 };
 
-/// A computed field. `void_fraction = available - solid`, per cell volume. Grids have their origin voxel (0,0,0) at
-/// the lattice's first cell and their integer indices at voxel centres; solid background 0, void background 1.
+/// A computed field. `void_fraction = available - solid`, per cell volume. Grids have their origin voxel
+/// (0,0,0) at the lattice's first cell and their integer indices at voxel centres; solid background 0, void
+/// background 1. Active are: in the solid and mass grids voxels with solid, in the void grid voxels with
+/// solid or wall, in the available grid voxels with wall (blocks that one wall fills are tiles there), in
+/// averaged grids voxels whose average is not zero.
+///
+/// Averages are taken over a cube centred on each voxel: sum of solid / sum of available, with voxels that
+/// the cube's faces cut counted in part. Only what the cube holds of the box and outside walls counts, so at
+/// an edge that is not periodic it is cut off there; across a periodic edge it goes on at the other side (at
+/// most one period). A voxel inside a wall gets the average over what its cube reaches outside the wall;
+/// where the cube reaches nothing that is available, the grids keep their background. A length of at most a
+/// voxel's edge averages over the voxel itself.
 struct Field {
   Lattice lattice;
   FieldSums sums;
@@ -46,11 +56,13 @@ struct Field {
   openvdb::FloatGrid::Ptr void_fraction;
   openvdb::FloatGrid::Ptr available_fraction;       // null without walls (then 1 everywhere)
   openvdb::FloatGrid::Ptr mass_density;             // [kg/m^3]; null where no density is known
-  openvdb::FloatGrid::Ptr solid_fraction_averaged;  // null unless asked for
-  openvdb::FloatGrid::Ptr void_fraction_averaged;   // solid averaged over what is available: 1 - solid/available
+  openvdb::FloatGrid::Ptr solid_fraction_averaged;  // sum of solid / sum of available; null unless asked for
+  openvdb::FloatGrid::Ptr void_fraction_averaged;   // 1 - solid_fraction_averaged
 };
 
-/// Computes the fields asked for. Same bits for any number of threads. Throws InputError on non-finite spheres.
+/// Computes the fields asked for. Same bits for any number of threads; a voxel's bits depend only on the
+/// spheres that touch it (averages: up to rounding). Throws InputError on spheres that are not finite
+/// and positive, cells that are not cubic, or averages that would take more than 4 GiB.
 Field compute_field(const SpheresView& spheres, const Solids& solids, const FieldRequest& request);
 
 }  // namespace interstice::voxel

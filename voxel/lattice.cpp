@@ -1,1 +1,90 @@
-// (filled in with its first commit)
+#include "voxel/lattice.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "base/error.h"
+
+namespace interstice::voxel {
+
+namespace {
+
+// OpenVDB coordinates are 32-bit; the last whole leaf must fit as well.
+constexpr double kMaxCells = 2147483648.0 - 16.0;
+constexpr double kMaxCellsInAll = 0x1p62;
+
+std::string axis_name(int axis) { return std::string(1, "xyz"[axis]); }
+
+// The number of cells that cover `length`. A length that is a multiple of the edge up to the rounding of its
+// inputs (say 18 mm in 1 mm voxels) must not gain a cell for it.
+double cells_over(double length, double voxel) {
+  const double quotient = length / voxel;
+  const double nearest = std::round(quotient);
+  if (nearest >= 1 && std::abs(quotient - nearest) <= 1e-9 * nearest) return nearest;
+  return std::max(1.0, std::ceil(quotient));
+}
+
+}  // namespace
+
+CellRange intersection(const CellRange& a, const CellRange& b) {
+  CellRange both;
+  for (int axis = 0; axis < 3; ++axis) {
+    both.lo[axis] = std::max(a.lo[axis], b.lo[axis]);
+    both.hi[axis] = std::min(a.hi[axis], b.hi[axis]);
+  }
+  return both;
+}
+
+Lattice cubic_lattice(const Box& box, double voxel) {
+  if (!(std::isfinite(voxel) && voxel > 0))
+    throw InputError("voxel edge is " + std::to_string(voxel) + " m; it must be finite and positive");
+  Lattice lattice{box.lo, {voxel, voxel, voxel}, {0, 0, 0}};
+  for (int axis = 0; axis < 3; ++axis) {
+    const double length = box.hi[axis] - box.lo[axis];
+    if (!(std::isfinite(box.lo[axis]) && std::isfinite(box.hi[axis]) && length > 0))
+      throw InputError("the box is empty or not finite along " + axis_name(axis) + "; give lo < hi");
+    const double n = cells_over(length, voxel);
+    if (n > kMaxCells)
+      throw InputError("more than 2^31 voxels along " + axis_name(axis) +
+                       "; choose a larger voxel or a smaller box");
+    lattice.n[axis] = static_cast<std::int64_t>(n);
+  }
+  check_lattice(lattice);
+  return lattice;
+}
+
+void check_lattice(const Lattice& lattice) {
+  double cells = 1;
+  for (int axis = 0; axis < 3; ++axis) {
+    if (!(std::isfinite(lattice.h[axis]) && lattice.h[axis] > 0) || !std::isfinite(lattice.lo[axis]))
+      throw InputError("the lattice's cells are not finite and positive along " + axis_name(axis));
+    const double n = static_cast<double>(lattice.n[axis]);
+    if (n < 1 || n > kMaxCells)
+      throw InputError("the lattice has " + std::to_string(lattice.n[axis]) + " cells along " +
+                       axis_name(axis) + "; 1 to 2^31 - 16 are possible");
+    cells *= n;
+  }
+  if (cells > kMaxCellsInAll)
+    throw InputError("the lattice has more than 2^62 cells; choose a larger voxel or a smaller box");
+}
+
+std::int64_t floor_index(double value) {
+  return static_cast<std::int64_t>(std::floor(std::clamp(value, -0x1p60, 0x1p60)));
+}
+
+std::int64_t cell_along(const Lattice& lattice, int axis, double at) {
+  const double lo = lattice.lo[axis], h = lattice.h[axis];
+  const auto face = [&](std::int64_t i) { return lo + static_cast<double>(i) * h; };
+  const std::int64_t n = lattice.n[axis];
+  if (!(at >= lo && at <= face(n)))
+    throw InputError(axis_name(axis) + " = " + std::to_string(at) + " m is outside the field, which spans " +
+                     std::to_string(lo) + " to " + std::to_string(face(n)) + " m");
+  std::int64_t i = std::clamp<std::int64_t>(floor_index((at - lo) / h), 0, n - 1);
+  // The division's rounding must not put a coordinate on the wrong side of a face.
+  while (i + 1 < n && at >= face(i + 1)) ++i;
+  while (i > 0 && at < face(i)) --i;
+  return i;
+}
+
+}  // namespace interstice::voxel

@@ -1,1 +1,196 @@
-// (filled in with its first commit)
+#include "voxel/layer.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "base/error.h"
+#include "base/parallel.h"
+#include "voxel/bins.h"
+#include "voxel/overlap.h"
+
+namespace interstice::voxel {
+
+namespace {
+
+// The same columns twice, as cells: cut off at the top of the gap, and reaching above every sphere.
+struct Stands {
+  Lattice gap, whole;
+};
+
+Stands stands_of(const SpheresView& spheres, const LayerRequest& request) {
+  const Box& box = request.box;
+  Lattice gap{box.lo, {0, 0, 0}, {request.columns[0], request.columns[1], 1}};
+  for (int axis = 0; axis < 3; ++axis) {
+    const double length = box.hi[axis] - box.lo[axis];
+    if (!(std::isfinite(length) && length > 0))
+      throw InputError("the layer's box is empty or not finite along " + std::string(1, "xyz"[axis]) +
+                       "; give lo < hi");
+    if (gap.n[axis] < 1 || gap.n[axis] > 1'000'000)
+      throw InputError("a layer has 1 to 1,000,000 columns along an axis, not " +
+                       std::to_string(gap.n[axis]));
+    gap.h[axis] = length / static_cast<double>(gap.n[axis]);
+  }
+  if (gap.cells() > 100'000'000) throw InputError("a layer has at most 100 million columns; choose fewer");
+  check_lattice(gap);
+  check_spheres(spheres, gap, {request.periodic[0], request.periodic[1], false});
+  Lattice whole = gap;
+  for (std::size_t s = 0; s < spheres.count; ++s)
+    whole.h.z = std::max(whole.h.z, (spheres.z[s] + spheres.radius[s] - box.lo.z) * (1 + 1e-12));
+  return {gap, whole};
+}
+
+struct Sums {
+  std::vector<double> gap, mass, whole;  // [m^3], [kg], [m^3] per column
+  std::vector<double> top;               // [m] above the floor
+};
+
+// The highest point of the sphere over the column's rectangle, above the floor [m]; negative where there is
+// none.
+double top_over(const Lattice& lattice, const PlacedSphere& sphere, std::int64_t i, std::int64_t j) {
+  double squared = sphere.radius * sphere.radius;
+  const std::array<std::int64_t, 2> column{i, j};
+  for (int axis = 0; axis < 2; ++axis) {
+    const double h = lattice.h[axis];
+    const double below = static_cast<double>(column[axis] - sphere.cell[axis]) * h - sphere.offset[axis];
+    const double distance = std::max({below, -(below + h), 0.0});
+    squared -= distance * distance;
+  }
+  if (squared <= 0) return -1;
+  return static_cast<double>(sphere.cell[2]) * lattice.h.z + sphere.offset.z + std::sqrt(squared);
+}
+
+// Adds the exact share of every sphere in the columns of one block; calls add(column, share, sphere index).
+template <class Add>
+void add_block(const SpheresView& spheres, const Lattice& lattice, const Bins& bins, std::size_t bin,
+               const Add& add) {
+  const CellRange cells = block_cells(lattice, BlockGrid(lattice).block(bins.keys[bin]));
+  double fractions[kBlockCells];
+  for (std::size_t e = bins.first[bin]; e < bins.first[bin + 1]; ++e) {
+    const BinEntry& entry = bins.entries[e];
+    const PlacedSphere sphere = moved(place(lattice, spheres, entry.sphere), lattice, entry.image);
+    const CellRange touched = intersection(bounding_cells(lattice, sphere), cells);
+    if (touched.empty()) continue;
+    exact_fractions(lattice, sphere, touched, fractions);
+    const double* next = fractions;
+    for (std::int64_t i = touched.lo[0]; i < touched.hi[0]; ++i)
+      for (std::int64_t j = touched.lo[1]; j < touched.hi[1]; ++j)
+        add(i, j, *next++, sphere, static_cast<std::size_t>(entry.sphere));
+  }
+}
+
+Sums sums_of(const SpheresView& spheres, const LayerRequest& request, const Stands& stands) {
+  const std::array<bool, 3> periodic{request.periodic[0], request.periodic[1], false};
+  const auto columns = static_cast<std::size_t>(stands.gap.cells());
+  Sums sums{std::vector<double>(columns), std::vector<double>(columns), std::vector<double>(columns),
+            std::vector<double>(columns)};
+  const auto at = [&](std::int64_t i, std::int64_t j) {
+    return static_cast<std::size_t>(i + stands.gap.n[0] * j);
+  };
+  const double gap_volume = stands.gap.cell_volume(), whole_volume = stands.whole.cell_volume();
+
+  const Bins in_gap = bin_spheres(spheres, stands.gap, periodic);
+  for_each_block({in_gap.keys.size(), 1}, [&](std::size_t b, std::size_t, std::size_t) {
+    add_block(spheres, stands.gap, in_gap, b,
+              [&](std::int64_t i, std::int64_t j, double share, const PlacedSphere&, std::size_t s) {
+                sums.gap[at(i, j)] += share * gap_volume;
+                sums.mass[at(i, j)] +=
+                    share * gap_volume * (spheres.density ? spheres.density[s] : request.density);
+              });
+  });
+  const Bins above_floor = bin_spheres(spheres, stands.whole, periodic);
+  for_each_block({above_floor.keys.size(), 1}, [&](std::size_t b, std::size_t, std::size_t) {
+    add_block(spheres, stands.whole, above_floor, b,
+              [&](std::int64_t i, std::int64_t j, double share, const PlacedSphere& sphere, std::size_t) {
+                sums.whole[at(i, j)] += share * whole_volume;
+                sums.top[at(i, j)] = std::max(sums.top[at(i, j)], top_over(stands.whole, sphere, i, j));
+              });
+  });
+  return sums;
+}
+
+double ratio(double part, double whole) { return whole > 0 ? part / whole : 0.0; }
+
+// Sums over a set of columns, from which all means follow.
+struct Totals {
+  double solid = 0, available = 0, height = 0, surface = 0;
+  std::size_t count = 0;
+
+  void add(const LayerColumns& columns, std::size_t c) {
+    solid += columns.solid_fraction[c] * columns.available_volume[c];
+    available += columns.available_volume[c];
+    height += columns.solid_height[c];
+    surface += columns.surface_height[c];
+    ++count;
+  }
+  double mean(double sum) const { return count > 0 ? sum / static_cast<double>(count) : 0.0; }
+};
+
+}  // namespace
+
+LayerColumns layer_columns(const SpheresView& spheres, const Solids& solids, const LayerRequest& request) {
+  if (!(std::isfinite(request.density) && request.density >= 0))
+    throw InputError("the density must be finite and not negative");
+  const Stands stands = stands_of(spheres, request);
+  const Sums sums = sums_of(spheres, request, stands);
+  const Lattice& gap = stands.gap;
+  const double area = gap.h.x * gap.h.y;
+  LayerColumns columns;
+  columns.columns = request.columns;
+  for (std::int64_t i = 0; i < gap.n[0]; ++i) columns.x.push_back(gap.cell_center(i, 0, 0).x);
+  for (std::int64_t j = 0; j < gap.n[1]; ++j) columns.y.push_back(gap.cell_center(0, j, 0).y);
+  for (std::int64_t j = 0; j < gap.n[1]; ++j)
+    for (std::int64_t i = 0; i < gap.n[0]; ++i) {
+      const auto c = static_cast<std::size_t>(i + gap.n[0] * j);
+      const Vec3d corner{gap.lo.x + static_cast<double>(i) * gap.h.x,
+                         gap.lo.y + static_cast<double>(j) * gap.h.y, gap.lo.z};
+      double available = gap.cell_volume();
+      if (!solids.empty())
+        available = std::max(0.0, available - solid_volume(solids, {corner, corner + gap.h}));
+      if (available < 1e-12 * gap.cell_volume()) available = 0;  // rounding of a wall that fills the column
+      const double height = sums.whole[c] / area;
+      columns.available_volume.push_back(available);
+      columns.solid_fraction.push_back(ratio(sums.gap[c], available));
+      columns.mass_density.push_back(ratio(sums.mass[c], available));
+      columns.solid_height.push_back(height);
+      columns.surface_height.push_back(sums.top[c]);
+      columns.solid_fraction_below_surface.push_back(ratio(height, sums.top[c]));
+    }
+  return columns;
+}
+
+LayerSummary layer_summary(const LayerColumns& columns) {
+  Totals totals;
+  const std::size_t n = columns.solid_fraction.size();
+  for (std::size_t c = 0; c < n; ++c) totals.add(columns, c);
+  LayerSummary summary;
+  summary.solid_fraction_gap = ratio(totals.solid, totals.available);
+  summary.solid_height = totals.mean(totals.height);
+  summary.surface_height = totals.mean(totals.surface);
+  summary.solid_fraction_below_surface = ratio(totals.height, totals.surface);
+  double sum = 0, squares = 0;
+  for (const double value : columns.solid_fraction) sum += value;
+  const double mean = totals.mean(sum);
+  for (const double value : columns.solid_fraction) squares += (value - mean) * (value - mean);
+  summary.solid_fraction_sd = n > 1 ? std::sqrt(squares / static_cast<double>(n - 1)) : 0.0;
+  return summary;
+}
+
+LayerProfile layer_profile(const LayerColumns& columns, int axis) {
+  const auto nx = static_cast<std::size_t>(columns.columns[0]),
+             ny = static_cast<std::size_t>(columns.columns[1]);
+  LayerProfile profile;
+  profile.at = axis == 0 ? columns.x : columns.y;
+  for (std::size_t p = 0; p < profile.at.size(); ++p) {
+    Totals totals;
+    for (std::size_t q = 0; q < (axis == 0 ? ny : nx); ++q)
+      totals.add(columns, axis == 0 ? p + nx * q : q + nx * p);
+    profile.solid_fraction.push_back(ratio(totals.solid, totals.available));
+    profile.solid_height.push_back(totals.mean(totals.height));
+    profile.surface_height.push_back(totals.mean(totals.surface));
+    profile.solid_fraction_below_surface.push_back(ratio(totals.height, totals.surface));
+  }
+  return profile;
+}
+
+}  // namespace interstice::voxel

@@ -12,38 +12,44 @@
 namespace interstice::voxel {
 
 struct LayerRequest {
-  Box box;                               // columns stand in x and y over it; z is the layer (the gap)
-  std::array<std::int64_t, 2> columns;   // NX, NY
+  Box box;                              // columns stand in x and y over it; z is the layer (the gap)
+  std::array<std::int64_t, 2> columns;  // NX, NY
   std::array<bool, 3> periodic{false, false, false};
-  double density = 0;                    // [kg/m^3] used where spheres carry none
+  double density = 0;  // [kg/m^3] used where spheres carry none
 };
 
 /// One number per column, x fastest: index = i + NX * j.
 struct LayerColumns {
   std::array<std::int64_t, 2> columns{0, 0};
   std::vector<double> x, y;              // centres [m], NX and NY values
-  std::vector<double> solid_fraction;    // solid volume in the gap / volume of the gap not taken by walls
-  std::vector<double> mass_density;      // [kg/m^3], same volume
-  std::vector<double> solid_height;      // solid volume above the layer's floor (any height) per column area [m]
-  std::vector<double> surface_height;    // highest point of powder inside the column above the floor [m]; 0: none
-  std::vector<double> solid_fraction_below_surface;  // solid height / surface height; 0 where there is no powder
+  std::vector<double> available_volume;  // [m^3] of the gap, not taken by walls
+  std::vector<double>
+      solid_fraction;                // solid volume in the gap / available volume; 0 where none is available
+  std::vector<double> mass_density;  // [kg/m^3], same volume
+  std::vector<double> solid_height;  // solid volume above the layer's floor, at any height, per area [m]
+  std::vector<double> surface_height;  // highest point of powder in the column above the floor [m]; 0: none
+  std::vector<double> solid_fraction_below_surface;  // solid height / surface height; 0 without powder
 };
 
 /// Means over columns, and the sample standard deviation (N - 1) of the gap's solid fraction.
 struct LayerSummary {
-  double solid_fraction_gap = 0;         // sum of solid / sum of available in the gap
-  double solid_fraction_sd = 0;          // over columns
-  double solid_height = 0;               // [m]
-  double surface_height = 0;             // [m]
+  double solid_fraction_gap = 0;            // sum of solid / sum of available in the gap
+  double solid_fraction_sd = 0;             // over columns
+  double solid_height = 0;                  // [m]
+  double surface_height = 0;                // [m]
   double solid_fraction_below_surface = 0;  // sum of solid / sum of (surface height * area)
 };
 
-/// A profile along x (or y): each of the columns' numbers averaged over the other axis.
+/// A profile along x (or y): each of the columns' numbers averaged over the other axis; fractions are ratios
+/// of sums, as in the summary.
 struct LayerProfile {
-  std::vector<double> at;                // [m]
+  std::vector<double> at;  // [m]
   std::vector<double> solid_fraction, solid_height, surface_height, solid_fraction_below_surface;
 };
 
+/// Columns periodic in x and y continue at the other side of the box; periodic[2] is ignored (a layer has a
+/// floor and a top). Throws InputError on an empty box, columns outside 1 to 10^6, or spheres that are not
+/// finite and positive.
 LayerColumns layer_columns(const SpheresView& spheres, const Solids& solids, const LayerRequest& request);
 LayerSummary layer_summary(const LayerColumns& columns);
 LayerProfile layer_profile(const LayerColumns& columns, int axis);  // axis 0: along x, 1: along y

@@ -1,1 +1,68 @@
-// (filled in with its first commit)
+#include "voxel/sample.h"
+
+namespace interstice::voxel {
+
+namespace {
+
+// Reads all of a field's grids voxel after voxel.
+class Reader {
+ public:
+  Reader(const Field& field, Samples& out)
+      : field_(field),
+        out_(out),
+        void_(field.void_fraction->getConstAccessor()),
+        solid_(field.solid_fraction->getConstAccessor()),
+        mass_((field.mass_density ? field.mass_density : field.solid_fraction)->getConstAccessor()),
+        averaged_((field.void_fraction_averaged ? field.void_fraction_averaged : field.void_fraction)
+                      ->getConstAccessor()) {}
+
+  void read(const std::array<std::int64_t, 3>& cell) {
+    const openvdb::Coord at(static_cast<int>(cell[0]), static_cast<int>(cell[1]), static_cast<int>(cell[2]));
+    out_.center.push_back(field_.lattice.cell_center(cell[0], cell[1], cell[2]));
+    out_.void_fraction.push_back(static_cast<double>(void_.getValue(at)));
+    out_.solid_fraction.push_back(static_cast<double>(solid_.getValue(at)));
+    if (field_.mass_density) out_.mass_density.push_back(static_cast<double>(mass_.getValue(at)));
+    if (field_.void_fraction_averaged)
+      out_.void_fraction_averaged.push_back(static_cast<double>(averaged_.getValue(at)));
+  }
+
+ private:
+  const Field& field_;
+  Samples& out_;
+  openvdb::FloatGrid::ConstAccessor void_, solid_, mass_, averaged_;
+};
+
+}  // namespace
+
+Samples sample_slice(const Field& field, int axis, double at) {
+  Samples samples;
+  samples.normal_axis = axis;
+  samples.axes = axis == 0 ? std::array{1, 2} : axis == 1 ? std::array{0, 2} : std::array{0, 1};
+  samples.rows = field.lattice.n[samples.axes[0]];
+  samples.columns = field.lattice.n[samples.axes[1]];
+  std::array<std::int64_t, 3> cell{0, 0, 0};
+  cell[axis] = cell_along(field.lattice, axis, at);
+  Reader reader(field, samples);
+  for (std::int64_t r = 0; r < samples.rows; ++r)
+    for (std::int64_t c = 0; c < samples.columns; ++c) {
+      cell[samples.axes[0]] = r;
+      cell[samples.axes[1]] = c;
+      reader.read(cell);
+    }
+  return samples;
+}
+
+Samples sample_line(const Field& field, int axis, const Vec3d& at) {
+  Samples samples;
+  samples.axes = {axis, axis};
+  samples.rows = 1;
+  samples.columns = field.lattice.n[axis];
+  std::array<std::int64_t, 3> cell{0, 0, 0};
+  for (int a = 0; a < 3; ++a)
+    if (a != axis) cell[a] = cell_along(field.lattice, a, at[a]);
+  Reader reader(field, samples);
+  for (cell[axis] = 0; cell[axis] < samples.columns; ++cell[axis]) reader.read(cell);
+  return samples;
+}
+
+}  // namespace interstice::voxel

@@ -1,0 +1,43 @@
+// From spheres and walls to the leaves of the field's grids, one block of cells at a time.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "voxel/average.h"
+#include "voxel/bins.h"
+#include "voxel/field.h"
+#include "voxel/walls.h"
+
+namespace interstice::voxel {
+
+using Leaf = openvdb::FloatTree::LeafNodeType;
+static_assert(Leaf::DIM == kBlock && Leaf::SIZE == kBlockCells);
+
+/// What a block contributes. Sums are over its cells, in shares of a cell.
+struct BlockResult {
+  std::array<std::int64_t, 3> block{0, 0, 0};
+  bool wall_tile = false;  // nothing but wall: a tile, no leaves
+  double solid = 0, wall = 0, written = 0;
+  double void_min = 1, void_max = 1;
+  std::int64_t negative = 0;
+  std::int64_t cells = 0, active = 0;  // active: cells with something in them
+  std::unique_ptr<Leaf> solid_leaf, void_leaf, available_leaf, mass_leaf;
+};
+
+/// What all blocks share.
+struct Accumulation {
+  const SpheresView& spheres;
+  const FieldRequest& request;
+  const Bins& bins;
+  const Solids& walls;  // relative to the lattice
+  const std::vector<WallBlock>& wall_blocks;
+  bool mass = false;             // whether to fill mass densities
+  DenseShares* dense = nullptr;  // where averages are taken from, or null
+};
+
+/// One result per block that has something in it, ascending by key. Every voxel sums over spheres in
+/// ascending order of index, in one thread: the same bits however many threads share the blocks.
+std::vector<BlockResult> accumulate(const Accumulation& what);
+
+}  // namespace interstice::voxel

@@ -1,0 +1,142 @@
+#include "voxel/bins.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include "base/error.h"
+
+namespace interstice::voxel {
+
+namespace {
+
+constexpr double kMaxPeriods = 64;  // a sphere that overlaps its own images this often is a mistake in units
+
+// Calls visit(key, image) for every block that an image of the sphere touches, in ascending order of images.
+template <class Visit>
+void for_each_block_touched(const Lattice& lattice, const BlockGrid& grid, const PlacedSphere& sphere,
+                            const std::array<bool, 3>& periodic, const Visit& visit) {
+  const ImageRange images = images_of(lattice, sphere, periodic);
+  std::array<std::int32_t, 3> m;
+  for (m[0] = images.lo[0]; m[0] <= images.hi[0]; ++m[0])
+    for (m[1] = images.lo[1]; m[1] <= images.hi[1]; ++m[1])
+      for (m[2] = images.lo[2]; m[2] <= images.hi[2]; ++m[2]) {
+        const PlacedSphere image = moved(sphere, lattice, m);
+        const CellRange cells = intersection(bounding_cells(lattice, image), all_cells(lattice));
+        if (cells.empty()) continue;
+        std::array<std::int64_t, 3> b;
+        for (b[0] = cells.lo[0] / kBlock; b[0] <= (cells.hi[0] - 1) / kBlock; ++b[0])
+          for (b[1] = cells.lo[1] / kBlock; b[1] <= (cells.hi[1] - 1) / kBlock; ++b[1])
+            for (b[2] = cells.lo[2] / kBlock; b[2] <= (cells.hi[2] - 1) / kBlock; ++b[2])
+              if (touches(lattice, image, block_cells(lattice, b))) visit(grid.key(b), m);
+      }
+}
+
+struct KeyedEntry {
+  std::uint64_t key;
+  BinEntry entry;
+};
+
+// Counting sort where a counter per block is affordable, else a comparison sort; both keep the order of
+// spheres.
+void group_by_key(std::vector<KeyedEntry>& keyed, std::int64_t blocks, Bins& bins) {
+  const std::size_t count = keyed.size();
+  bins.entries.resize(count);
+  if (static_cast<std::uint64_t>(blocks) <= std::max<std::uint64_t>(1u << 22, 4 * count)) {
+    std::vector<std::size_t> begin(static_cast<std::size_t>(blocks) + 1, 0);
+    for (const KeyedEntry& e : keyed) ++begin[e.key + 1];
+    for (std::size_t key = 0; key < static_cast<std::size_t>(blocks); ++key) {
+      if (begin[key + 1] > 0) {
+        bins.keys.push_back(key);
+        bins.first.push_back(begin[key]);
+      }
+      begin[key + 1] += begin[key];
+    }
+    for (const KeyedEntry& e : keyed) bins.entries[begin[e.key]++] = e.entry;
+  } else {
+    std::stable_sort(keyed.begin(), keyed.end(),
+                     [](const KeyedEntry& a, const KeyedEntry& b) { return a.key < b.key; });
+    for (std::size_t e = 0; e < count; ++e) {
+      if (e == 0 || keyed[e].key != keyed[e - 1].key) {
+        bins.keys.push_back(keyed[e].key);
+        bins.first.push_back(e);
+      }
+      bins.entries[e] = keyed[e].entry;
+    }
+  }
+  bins.first.push_back(count);
+}
+
+}  // namespace
+
+CellRange block_cells(const Lattice& lattice, const std::array<std::int64_t, 3>& block) {
+  CellRange cells;
+  for (int axis = 0; axis < 3; ++axis) {
+    cells.lo[axis] = block[axis] * kBlock;
+    cells.hi[axis] = std::min(cells.lo[axis] + kBlock, lattice.n[axis]);
+  }
+  return cells;
+}
+
+ImageRange images_of(const Lattice& lattice, const PlacedSphere& sphere,
+                     const std::array<bool, 3>& periodic) {
+  ImageRange images;
+  const CellRange cells = bounding_cells(lattice, sphere);
+  for (int axis = 0; axis < 3; ++axis) {
+    if (!periodic[axis]) continue;
+    // all m with cells.hi + m n > 0 and cells.lo + m n < n
+    const std::int64_t n = lattice.n[axis];
+    const auto floor_div = [n](std::int64_t a) { return a >= 0 ? a / n : -((-a + n - 1) / n); };
+    images.lo[axis] = static_cast<std::int32_t>(floor_div(-cells.hi[axis]) + 1);
+    images.hi[axis] = static_cast<std::int32_t>(floor_div(n - cells.lo[axis] - 1));
+  }
+  return images;
+}
+
+Bins bin_spheres(const SpheresView& spheres, const Lattice& lattice, const std::array<bool, 3>& periodic) {
+  const BlockGrid grid(lattice);
+  std::vector<KeyedEntry> keyed;
+  keyed.reserve(spheres.count * 2);
+  for (std::size_t s = 0; s < spheres.count; ++s)
+    for_each_block_touched(lattice, grid, place(lattice, spheres, s), periodic,
+                           [&](std::uint64_t key, const std::array<std::int32_t, 3>& image) {
+                             keyed.push_back({key, {static_cast<std::uint32_t>(s), image}});
+                           });
+  Bins bins;
+  group_by_key(keyed, grid.blocks(), bins);
+  return bins;
+}
+
+void check_spheres(const SpheresView& spheres, const Lattice& lattice, const std::array<bool, 3>& periodic) {
+  constexpr std::size_t kReported = 10;
+  if (spheres.count > std::numeric_limits<std::uint32_t>::max())
+    throw InputError("more than 2^32 - 1 spheres in one field; split them");
+  std::vector<std::string> errors;
+  const auto report = [&](std::size_t s, const std::string& what) {
+    errors.push_back("sphere " + std::to_string(s) + ": " + what);
+  };
+  double shortest_period = std::numeric_limits<double>::infinity();
+  double reach = 0x1p30;  // images farther away than this many periods would overflow their counter
+  for (int axis = 0; axis < 3; ++axis)
+    if (periodic[axis])
+      shortest_period = std::min(shortest_period, static_cast<double>(lattice.n[axis]) * lattice.h[axis]);
+  for (std::size_t s = 0; s < spheres.count && errors.size() < kReported; ++s) {
+    const Vec3d c{spheres.x[s], spheres.y[s], spheres.z[s]};
+    const double r = spheres.radius[s];
+    if (!(std::isfinite(c.x) && std::isfinite(c.y) && std::isfinite(c.z)))
+      report(s, "its position is not finite");
+    else if (!(std::isfinite(r) && r > 0))
+      report(s, "its radius is " + std::to_string(r) + " m; it must be finite and positive");
+    else if (2 * r > kMaxPeriods * shortest_period)
+      report(s, "its diameter is more than 64 periods of the box");
+    else if (norm(c - lattice.lo) > reach * shortest_period)
+      report(s, "it lies more than 2^30 periods away from the box");
+    if (spheres.density && !(std::isfinite(spheres.density[s]) && spheres.density[s] > 0))
+      report(s, "its density is " + std::to_string(spheres.density[s]) +
+                    " kg/m^3; it must be finite and positive");
+  }
+  if (!errors.empty()) throw InputError(errors);
+}
+
+}  // namespace interstice::voxel

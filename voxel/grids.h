@@ -1,0 +1,23 @@
+// The OpenVDB side of a field: grids with their transform and metadata, and leaves put into their trees.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "voxel/accumulate.h"
+
+namespace interstice::voxel {
+
+/// An empty grid on the lattice: integer indices at voxel centres. Metadata: name, units, box, voxel, method,
+/// version.
+openvdb::FloatGrid::Ptr new_grid(const FieldRequest& request, const std::string& name,
+                                 const std::string& units, float background);
+
+/// Moves the blocks' leaves into the field's grids, which this creates.
+void fill_grids(const FieldRequest& request, bool walls, bool mass, std::vector<BlockResult>& blocks,
+                Field& field);
+
+/// Creates the averaged grids from finished averages: active where the average is not zero.
+void fill_averaged_grids(const FieldRequest& request, const DenseShares& averages, Field& field);
+
+}  // namespace interstice::voxel
