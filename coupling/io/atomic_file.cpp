@@ -103,7 +103,7 @@ void write_atomically(const fs::path& path, const std::function<void(const fs::p
     PosixFile file(temporary.path, O_RDWR);
     file.sync();
     file.close();
-    fs::rename(temporary.path, path);
+    rename_file(temporary.path, path);
     temporary.renamed = true;
     sync_folder(folder);
   } catch (const InputError&) {

@@ -21,11 +21,18 @@ auto uninterrupted(const Call& call) {
   return result;
 }
 
+void announce(int descriptor = -1, std::uint64_t offset = 0, const void* data = nullptr,
+              std::size_t bytes = 0) {
+  if (before_disk_change != nullptr) before_disk_change({descriptor, offset, data, bytes});
+}
+
 /// One call moves at most this much: Linux cuts off at 2^31 - 4096 bytes, some network file systems far
 /// earlier.
 constexpr std::size_t kLargestTransfer = std::size_t{1} << 30;
 
 }  // namespace
+
+void (*before_disk_change)(const DiskChange&) = nullptr;
 
 std::string system_reason(int error) {
   const std::string words = std::generic_category().message(error);
@@ -45,6 +52,7 @@ PosixFile::~PosixFile() {
 }
 
 void PosixFile::write(std::uint64_t offset, const void* data, std::size_t bytes) const {
+  announce(descriptor_, offset, data, bytes);
   const char* from = static_cast<const char*>(data);
   while (bytes > 0) {
     const ssize_t n = uninterrupted([&] {
@@ -80,10 +88,12 @@ std::uint64_t PosixFile::size() const {
 }
 
 void PosixFile::truncate(std::uint64_t size) const {
+  announce(descriptor_, size);
   if (uninterrupted([&] { return ::ftruncate(descriptor_, static_cast<off_t>(size)); }) != 0) fail(errno);
 }
 
 void PosixFile::sync() const {
+  announce(descriptor_);
   if (uninterrupted([&] { return ::fsync(descriptor_); }) == 0) return;
   if (errno != EINVAL && errno != ENOTSUP) fail(errno);  // a pipe or a file system without flushing
 }
@@ -92,6 +102,16 @@ void PosixFile::close() {
   const int descriptor = descriptor_;
   descriptor_ = -1;  // never closed twice: after a failed close the descriptor is gone all the same
   if (descriptor >= 0 && ::close(descriptor) != 0 && errno != EINTR) fail(errno);
+}
+
+void rename_file(const std::filesystem::path& from, const std::filesystem::path& to) {
+  announce();
+  if (::rename(from.c_str(), to.c_str()) != 0) fail(errno);
+}
+
+void remove_file(const std::filesystem::path& path) {
+  announce();
+  if (::unlink(path.c_str()) != 0 && errno != ENOENT) fail(errno);
 }
 
 void sync_folder(const std::filesystem::path& folder) {

@@ -39,6 +39,24 @@ class PosixFile {
   int descriptor_ = -1;
 };
 
+/// Renames over any file of that name.
+void rename_file(const std::filesystem::path& from, const std::filesystem::path& to);
+/// Removes a file; a missing one is none the less removed.
+void remove_file(const std::filesystem::path& path);
+
+/// A change of the disk that is about to happen: a write (`data` set), or a cut, a flush, a rename, a
+/// removal.
+struct DiskChange {
+  int descriptor;
+  std::uint64_t offset;
+  const void* data;
+  std::size_t bytes;
+};
+
+/// Null but in tests, which put here a function that is called before every change and may throw (a failing
+/// disk) or never return (a kill): so each point at which a writer can be stopped is tried, not a random few.
+extern void (*before_disk_change)(const DiskChange&);
+
 /// Makes names created in, renamed in or removed from `folder` durable. Does nothing where the file system
 /// cannot.
 void sync_folder(const std::filesystem::path& folder);

@@ -16,6 +16,7 @@
 #include "coupling/io/atomic_file.h"
 #include "coupling/io/hdf5_handles.h"
 #include "coupling/io/posix_file.h"
+#include "coupling/io/rollback_file_driver.h"
 
 namespace interstice::io {
 
@@ -86,30 +87,20 @@ Hdf5Handle create_group(hid_t file, const char* name) {
                     "creating a group");
 }
 
-void write_content(const fs::path& path, const State& state) {
-  const Hdf5Session session;
-  const Hdf5Handle access = oldest_format_access();
-  Hdf5Handle file(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access), H5Fclose, "creating the file");
+void write_content(hid_t file, const State& state) {
   write_text_attribute(file, "format", kFormat);
   write_attribute(file, "version", H5T_STD_I64LE, H5T_NATIVE_INT64, &kVersion, 1);
-  {
-    const Hdf5Handle group = create_group(file, "real");
-    for (const auto& [key, values] : state.real)
-      write_dataset(group, key, H5T_IEEE_F64LE, simple_space(values.size()), values.data());
+  const Hdf5Handle real = create_group(file, "real");
+  for (const auto& [key, values] : state.real)
+    write_dataset(real, key, H5T_IEEE_F64LE, simple_space(values.size()), values.data());
+  const Hdf5Handle integer = create_group(file, "integer");
+  for (const auto& [key, values] : state.integer)
+    write_dataset(integer, key, H5T_STD_I64LE, simple_space(values.size()), values.data());
+  const Hdf5Handle texts = create_group(file, "text");
+  for (const auto& [key, text] : state.text) {
+    const Hdf5Handle space(H5Screate(text.empty() ? H5S_NULL : H5S_SCALAR), H5Sclose, "describing a text");
+    write_dataset(texts, key, text_type(text.size()), space, text.data());
   }
-  {
-    const Hdf5Handle group = create_group(file, "integer");
-    for (const auto& [key, values] : state.integer)
-      write_dataset(group, key, H5T_STD_I64LE, simple_space(values.size()), values.data());
-  }
-  {
-    const Hdf5Handle group = create_group(file, "text");
-    for (const auto& [key, text] : state.text) {
-      const Hdf5Handle space(H5Screate(text.empty() ? H5S_NULL : H5S_SCALAR), H5Sclose, "describing a text");
-      write_dataset(group, key, text_type(text.size()), space, text.data());
-    }
-  }
-  file.close("closing the file");
 }
 
 void append_trailer(const fs::path& path) {
@@ -205,10 +196,9 @@ void check_whole(const fs::path& path) {
 
 void write_state(const fs::path& path, const State& state) {
   write_atomically(path, [&](const fs::path& temporary) {
-    try {
-      write_content(temporary, state);
-    } catch (const Hdf5Error& error) {
-      throw RunError(error.what());
+    {
+      GuardedFile guarded(temporary, GuardedFile::Mode::create);
+      write_guarded(temporary, guarded, [&](hid_t file) { write_content(file, state); });
     }
     append_trailer(temporary);
   });

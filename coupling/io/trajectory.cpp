@@ -3,10 +3,14 @@
 
 #include <algorithm>
 #include <cstring>
+#include <functional>
+#include <system_error>
 
 #include "base/error.h"
 #include "coupling/io/atomic_file.h"
+#include "coupling/io/guarded_file.h"
 #include "coupling/io/hdf5_handles.h"
+#include "coupling/io/rollback_file_driver.h"
 #include "coupling/io/trajectory_layout.h"
 
 namespace interstice::io {
@@ -128,10 +132,8 @@ void write_frame(hid_t file, std::int64_t number, const ParticleFrame& frame) {
 }
 
 void write_empty_trajectory(const fs::path& path) {
-  const Hdf5Session session;
-  try {
-    Hdf5Handle file(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, oldest_format_access()), H5Fclose,
-                    "creating the file");
+  GuardedFile guarded(path, GuardedFile::Mode::create);
+  write_guarded(path, guarded, [](hid_t file) {
     write_text_attribute(file, "format", layout::kFormat);
     write_attribute(file, "version", H5T_STD_I64LE, H5T_NATIVE_INT64, &layout::kVersion, 1);
     write_text_attribute(
@@ -139,35 +141,61 @@ void write_empty_trajectory(const fs::path& path) {
         "TimeValue s; x y z radius bounds Walls m; velocity_0..2 m/s; omega_0..2 rad/s; density kg/m^3");
     Hdf5Handle(H5Gcreate2(file, layout::kWallGroup, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose,
                "creating the walls");
-    file.close("closing the file");
-  } catch (const Hdf5Error& error) {
-    throw RunError(error.what());
+  });
+}
+
+/// Runs change(file) on the trajectory: all of it takes effect, or nothing. True in `done` once it will
+/// survive, which may be before a late failure is thrown.
+void change_file(const fs::path& path, bool& done, const std::function<void(hid_t)>& change) {
+  try {
+    GuardedFile guarded(path, GuardedFile::Mode::change);
+    try {
+      write_guarded(path, guarded, change);
+      done = true;
+    } catch (...) {
+      done = guarded.committed();
+      throw;
+    }
+  } catch (const std::system_error& error) {
+    cannot_write(path, system_reason(error.code().value()));
   }
 }
 
-/// Runs change(file) on the open trajectory.
-template <class Change>
-void change_file(const fs::path& path, const Change& change) {
+/// Frames are not appended to what other programs, or later versions of this one, wrote.
+void require_ours(const fs::path& path) {
+  const TrajectoryReader readable(path);  // names every other defect
   const Hdf5Session session;
+  GuardedFile guarded(path, GuardedFile::Mode::read);
+  std::string format;
+  std::int64_t version = 0;
   try {
-    Hdf5Handle file(H5Fopen(path.c_str(), H5F_ACC_RDWR, oldest_format_access()), H5Fclose,
-                    "opening the file");
-    change(file.get());
-    file.close("closing the file");
-  } catch (const Hdf5Error& error) {
-    cannot_write(path, error.what());
+    const Hdf5Handle file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, guarded_access(guarded)), H5Fclose,
+                          "opening the file");
+    format = read_text_attribute(file, "format");
+    read_attribute(file, "version", H5T_NATIVE_INT64, &version, 1);
+  } catch (const Hdf5Error&) {
+    format.clear();
   }
+  if (format != layout::kFormat || version != layout::kVersion)
+    throw InputError(path.string() +
+                     ": not a trajectory that this version can continue; choose another folder");
 }
 
 }  // namespace
 
 TrajectoryWriter TrajectoryWriter::create(const fs::path& path) {
+  try {
+    remove_file(GuardedFile::journal_of(path));  // first: it must not be replayed on the new file
+  } catch (const std::system_error& error) {
+    cannot_write(path, system_reason(error.code().value()));
+  }
   write_atomically(path, write_empty_trajectory);
   return TrajectoryWriter(path);
 }
 
 TrajectoryWriter TrajectoryWriter::resume(const fs::path& path, double keep_until) {
   if (!fs::exists(path)) return create(path);
+  require_ours(path);
   TrajectoryWriter writer(path);
   std::int64_t frames = 0;
   {
@@ -176,7 +204,8 @@ TrajectoryWriter TrajectoryWriter::resume(const fs::path& path, double keep_unti
     while (writer.frames_ < frames && !(reader.time(writer.frames_) > keep_until)) ++writer.frames_;
   }
   if (writer.frames_ == frames) return writer;
-  change_file(path, [&](hid_t file) {
+  bool done = false;
+  change_file(path, done, [&](hid_t file) {
     const Hdf5Handle walls(H5Gopen2(file, layout::kWallGroup, H5P_DEFAULT), H5Gclose, "opening the walls");
     for (std::int64_t frame = writer.frames_; frame < frames; ++frame) {
       const std::string name = layout::step_name(frame);
@@ -190,7 +219,13 @@ TrajectoryWriter TrajectoryWriter::resume(const fs::path& path, double keep_unti
 
 void TrajectoryWriter::append(const ParticleFrame& frame) {
   check_lengths(path_, frame);
-  change_file(path_, [&](hid_t file) { write_frame(file, frames_, frame); });
+  bool done = false;
+  try {
+    change_file(path_, done, [&](hid_t file) { write_frame(file, frames_, frame); });
+  } catch (...) {
+    if (done) ++frames_;
+    throw;
+  }
   ++frames_;
 }
 

@@ -7,7 +7,9 @@
 #include <system_error>
 
 #include "base/error.h"
+#include "coupling/io/guarded_file.h"
 #include "coupling/io/hdf5_handles.h"
+#include "coupling/io/rollback_file_driver.h"
 #include "coupling/io/trajectory.h"
 #include "coupling/io/trajectory_layout.h"
 
@@ -17,9 +19,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// A frame by its place in the file. Once written it never moves, whereas the lists of names change with
+/// every frame that a running simulation appends: they are read once, at the start.
 struct StoredFrame {
   std::int64_t number;
-  double time;
+  haddr_t group;
+  haddr_t walls = HADDR_UNDEF;
+  double time = std::numeric_limits<double>::quiet_NaN();
 };
 
 /// k of "Step#k", or -1.
@@ -35,26 +41,38 @@ std::int64_t step_number(std::string_view name) {
 herr_t collect_step(hid_t, const char* name, const H5L_info_t* link, void* frames) {
   const std::int64_t number = step_number(name);
   if (number >= 0 && link->type == H5L_TYPE_HARD)
-    static_cast<std::vector<StoredFrame>*>(frames)->push_back(
-        {number, std::numeric_limits<double>::quiet_NaN()});
+    static_cast<std::vector<StoredFrame>*>(frames)->push_back({number, link->u.address});
   return 0;
 }
 
-Hdf5Handle open_group(hid_t file, const std::string& name) {
-  return Hdf5Handle(H5Gopen2(file, name.c_str(), H5P_DEFAULT), H5Gclose, "opening a group");
+std::vector<StoredFrame> list_steps(hid_t group) {
+  std::vector<StoredFrame> steps;
+  checked(H5Literate(group, H5_INDEX_NAME, H5_ITER_INC, nullptr, collect_step, &steps), "listing the frames");
+  std::sort(steps.begin(), steps.end(), [](const auto& a, const auto& b) { return a.number < b.number; });
+  return steps;
 }
 
 bool has_link(hid_t group, const char* name) {
   return checked(H5Lexists(group, name, H5P_DEFAULT), "looking for a dataset") > 0;
 }
 
+Hdf5Handle open_object(hid_t file, haddr_t address, H5I_type_t kind) {
+  Hdf5Handle object(H5Oopen_by_addr(file, address), H5Oclose, "opening a frame");
+  if (H5Iget_type(object) != kind) throw Hdf5Error("opening a frame failed: it is no frame");
+  return object;
+}
+
 std::vector<StoredFrame> list_frames(hid_t file) {
-  std::vector<StoredFrame> frames;
-  checked(H5Literate(file, H5_INDEX_NAME, H5_ITER_INC, nullptr, collect_step, &frames), "listing the frames");
-  std::sort(frames.begin(), frames.end(), [](const auto& a, const auto& b) { return a.number < b.number; });
+  std::vector<StoredFrame> frames = list_steps(file);
   for (StoredFrame& frame : frames)
-    read_attribute(open_group(file, layout::step_name(frame.number)), "TimeValue", H5T_NATIVE_DOUBLE,
-                   &frame.time, 1);
+    read_attribute(open_object(file, frame.group, H5I_GROUP), "TimeValue", H5T_NATIVE_DOUBLE, &frame.time, 1);
+  if (!has_link(file, layout::kWallGroup)) return frames;
+  const Hdf5Handle group(H5Gopen2(file, layout::kWallGroup, H5P_DEFAULT), H5Gclose, "opening the walls");
+  auto frame = frames.begin();
+  for (const StoredFrame& table : list_steps(group)) {
+    while (frame != frames.end() && frame->number < table.number) ++frame;
+    if (frame != frames.end() && frame->number == table.number) frame->walls = table.group;
+  }
   return frames;
 }
 
@@ -114,11 +132,7 @@ Shape shape_of(std::string_view kind, const std::array<double, layout::kWallValu
 
 std::string_view text_in(const char* bytes, std::size_t size) { return {bytes, ::strnlen(bytes, size)}; }
 
-std::vector<WallPose> read_walls(hid_t file, const std::string& name) {
-  if (!has_link(file, layout::kWallGroup)) return {};
-  const Hdf5Handle group = open_group(file, layout::kWallGroup);
-  if (!has_link(group, name.c_str())) return {};
-  const Hdf5Handle dataset(H5Dopen2(group, name.c_str(), H5P_DEFAULT), H5Dclose, "opening the walls");
+std::vector<WallPose> read_walls(hid_t dataset) {
   const Hdf5Handle stored(H5Dget_type(dataset), H5Tclose, "reading the walls' type");
   const std::size_t fixed_bytes = layout::kWallKindBytes + layout::kWallValues * sizeof(double);
   const std::size_t row_bytes = H5Tget_size(stored);
@@ -144,6 +158,7 @@ std::vector<WallPose> read_walls(hid_t file, const std::string& name) {
 
 struct TrajectoryReader::Impl {
   fs::path path;
+  std::optional<GuardedFile> bytes;  // outlives `file`, which reads through it
   Hdf5Handle file;
   std::vector<StoredFrame> frames;
 
@@ -164,15 +179,20 @@ TrajectoryReader::TrajectoryReader(const fs::path& path) : impl_(std::make_uniqu
   const Hdf5Session session;
   impl_->path = path;
   try {
-    impl_->file = Hdf5Handle(H5Fopen(path.c_str(), H5F_ACC_RDONLY, oldest_format_access()), H5Fclose,
+    impl_->bytes.emplace(path, GuardedFile::Mode::read);
+    impl_->file = Hdf5Handle(H5Fopen(path.c_str(), H5F_ACC_RDONLY, guarded_access(*impl_->bytes)), H5Fclose,
                              "opening the file");
     impl_->frames = list_frames(impl_->file);
     if (impl_->frames.empty() && read_text_attribute(impl_->file, "format") != layout::kFormat)
       throw InputError(path.string() +
                        ": an HDF5 file without frames (groups Step#0, Step#1, ...); give a trajectory");
+    impl_->bytes->unlock();
   } catch (const Hdf5Error& error) {
     throw InputError(path.string() + ": no readable trajectory: " + error.what() +
                      "; if it was copied or moved, do so again together with its .journal");
+  } catch (const std::system_error& error) {
+    throw InputError(path.string() + ": cannot be read: " + system_reason(error.code().value()) +
+                     "; check the permissions");
   }
 }
 
@@ -192,7 +212,7 @@ std::int64_t TrajectoryReader::frames() const { return static_cast<std::int64_t>
 double TrajectoryReader::time(std::int64_t frame) const { return impl_->at(frame).time; }
 
 ParticleFrame TrajectoryReader::read(std::int64_t frame) const {
-  const std::string name = layout::step_name(impl_->at(frame).number);
+  const StoredFrame& stored = impl_->at(frame);
   const auto damaged = [&](const std::string& reason) {
     return InputError(impl_->path.string() + ": frame " + std::to_string(frame) +
                       " cannot be read: " + reason + "; the other frames may be whole");
@@ -200,14 +220,15 @@ ParticleFrame TrajectoryReader::read(std::int64_t frame) const {
   const Hdf5Session session;
   try {
     ParticleFrame result;
-    const Hdf5Handle group = open_group(impl_->file, name);
+    const Hdf5Handle group = open_object(impl_->file, stored.group, H5I_GROUP);
     read_header(group, result);
     const Hdf5Handle x(H5Dopen2(group, "x", H5P_DEFAULT), H5Dclose, "opening column x");
     result.x.resize(checked_length(x, sizeof(float)));
     read_columns(group, layout::kReal, H5T_NATIVE_DOUBLE, result);
     read_columns(group, layout::kLong, H5T_NATIVE_INT64, result);
     read_columns(group, layout::kShort, H5T_NATIVE_INT32, result);
-    result.walls = read_walls(impl_->file, name);
+    if (stored.walls != HADDR_UNDEF)
+      result.walls = read_walls(open_object(impl_->file, stored.walls, H5I_DATASET));
     return result;
   } catch (const Hdf5Error& error) {
     throw damaged(error.what());
