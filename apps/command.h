@@ -1,5 +1,5 @@
-// What the subcommands share: each registers itself on the root and does its work in its CLI11 callback, throwing
-// typed errors that main() turns into exit statuses.
+// What the subcommands share: each registers itself on the root and does its work in its CLI11 callback,
+// throwing typed errors that main() turns into exit statuses.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -29,8 +29,8 @@ void add_compute_options(CLI::App& command, ComputeOptions& options);
 /// Checks what this build cannot do (throws InputError), sets the number of threads for the process.
 void apply_compute_options(const ComputeOptions& options);
 
-/// A folder for results: made if missing; refused (InputError) when not empty, unless `overwrite` clears what an
-/// earlier run of this tool left there.
+/// A folder for results: made if missing; refused (InputError) when not empty, unless `overwrite` clears what
+/// an earlier run of this tool left there.
 void prepare_output_folder(const std::filesystem::path& folder, bool overwrite);
 
 void add_run(CLI::App& root);

@@ -25,7 +25,8 @@ class InputError : public std::runtime_error {
   std::vector<std::string> messages_;
 };
 
-/// The run failed for a reason outside the physics: a full disk, a file that cannot be written. Exit status 1.
+/// The run failed for a reason outside the physics: a full disk, a file that cannot be written. Exit
+/// status 1.
 class RunError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;

@@ -9,7 +9,8 @@ namespace interstice {
 
 class Random {
  public:
-  Random(std::uint64_t seed, std::uint64_t stream) : key_(mix(mix(seed) ^ (stream * 0x9E3779B97F4A7C15ull))) {}
+  Random(std::uint64_t seed, std::uint64_t stream)
+      : key_(mix(mix(seed) ^ (stream * 0x9E3779B97F4A7C15ull))) {}
 
   /// Uniform in the open interval (0, 1).
   double uniform() { return (static_cast<double>(mix(key_ ^ mix(counter_++)) >> 11) + 0.5) * 0x1.0p-53; }

@@ -10,8 +10,8 @@ namespace interstice::dem {
 
 struct GrainColumns {
   std::vector<std::int64_t> id;
-  std::vector<double> x, y, z, radius, mass;       // [m], [kg]
-  std::vector<double> vx, vy, vz, wx, wy, wz;      // [m/s], [rad/s]
+  std::vector<double> x, y, z, radius, mass;   // [m], [kg]
+  std::vector<double> vx, vy, vz, wx, wy, wz;  // [m/s], [rad/s]
   std::vector<std::int32_t> material, layer;
 };
 

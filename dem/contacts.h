@@ -1,5 +1,5 @@
-// Which grains may touch which, and what a contact remembers. Results never depend on the order of these lists:
-// a grain's forces are summed over its partners in the order of their ids.
+// Which grains may touch which, and what a contact remembers. Results never depend on the order of these
+// lists: a grain's forces are summed over its partners in the order of their ids.
 #pragma once
 
 #include <cstdint>
@@ -33,13 +33,15 @@ class PairContacts {
   std::vector<Vec3d> spring;           // tangential displacement [m]; zero unless touching
   std::vector<PairResult> results;     // valid where touching
 
-  /// Takes over a new list; springs of pairs that are touching move with them. `old_slot[s]` is where the grain now
-  /// in slot s stood when the present list was made (or kNoSlot).
+  /// Takes over a new list; springs of pairs that are touching move with them. `old_slot[s]` is where the
+  /// grain now in slot s stood when the present list was made (or kNoSlot).
   void replace(std::vector<PairRef> new_pairs, const std::vector<GrainRow>& rows,
                const std::vector<std::uint32_t>& old_slot);
 
-  /// The pairs of the grain in `slot`, by ascending id of the partner.
+  /// The pairs of the grain in `slot`, by ascending id of the partner; none for a grain added since the list
+  /// was made.
   std::span<const Adjacent> of(std::size_t slot) const {
+    if (slot + 1 >= first_.size()) return {};
     return {adjacent_.data() + first_[slot], adjacent_.data() + first_[slot + 1]};
   }
 
@@ -48,7 +50,7 @@ class PairContacts {
  private:
   void build_adjacency(const std::vector<GrainRow>& rows);
 
-  std::vector<std::uint32_t> first_;     // per slot
+  std::vector<std::uint32_t> first_;  // per slot
   std::vector<Adjacent> adjacent_;
   std::vector<std::int64_t> partner_id_;  // beside adjacent_: survives a change of slots
 };
@@ -65,8 +67,13 @@ class WallContacts {
  public:
   std::vector<WallContact> entries;  // by slot, then by wall
 
-  std::span<WallContact> of(std::size_t slot) { return {entries.data() + first_[slot], entries.data() + first_[slot + 1]}; }
+  /// The walls near the grain in `slot`; none for a grain added since the list was made.
+  std::span<WallContact> of(std::size_t slot) {
+    if (slot + 1 >= first_.size()) return {};
+    return {entries.data() + first_[slot], entries.data() + first_[slot + 1]};
+  }
   std::span<const WallContact> of(std::size_t slot) const {
+    if (slot + 1 >= first_.size()) return {};
     return {entries.data() + first_[slot], entries.data() + first_[slot + 1]};
   }
 

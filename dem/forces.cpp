@@ -39,8 +39,7 @@ void Simulation::evaluate_pairs_with() {
     for (std::size_t k = begin; k < end; ++k) {
       const GrainRow& a = rows_[list.pairs[k].a];
       const GrainRow& b = rows_[list.pairs[k].b];
-      const Vec3d apart =
-          wraps ? separation(a.position(), b.position(), space) : a.position() - b.position();
+      const Vec3d apart = wraps ? separation(a.position(), b.position(), space) : a.position() - b.position();
       const double reach = a.radius + b.radius, d2 = dot(apart, apart);
       if (d2 >= reach * reach) {
         if (list.touching[k]) {

@@ -1,5 +1,5 @@
-// The grains as the CPU back end keeps them: one row of two cache lines a grain, sorted in space. Only the back end
-// knows this layout; everybody else copies columns (columns.h).
+// The grains as the CPU back end keeps them: one row of two cache lines a grain, sorted in space. Only the
+// back end knows this layout; everybody else copies columns (columns.h).
 #pragma once
 
 #include <cstdint>
@@ -30,7 +30,7 @@ static_assert(sizeof(GrainRow) == 128);
 struct alignas(64) GrainMotion {
   Vec3d acceleration;  // [m/s^2]
   double inverse_mass;
-  Vec3d angular;       // [rad/s^2]
+  Vec3d angular;  // [rad/s^2]
   double inverse_inertia;
 };
 

@@ -13,14 +13,14 @@ namespace interstice::dem {
 enum class AxisBoundary { open, periodic };  // a bounding wall is a plane among the walls
 
 struct Features {
-  bool tangential = false;   // Mindlin spring with Coulomb limit
-  bool rolling = false;      // constant directional torque
-  bool cohesion = false;     // SJKR
+  bool tangential = false;  // Mindlin spring with Coulomb limit
+  bool rolling = false;     // constant directional torque
+  bool cohesion = false;    // SJKR
   bool clip_tension = false;
 };
 
 struct Wall {
-  Shape shape;                // as it stands at time 0
+  Shape shape;  // as it stands at time 0
   std::uint16_t material = 0;
 };
 

@@ -34,7 +34,9 @@ struct Level {
   std::int64_t coordinate(double p, int axis) const {
     return static_cast<std::int64_t>(std::floor((p - lo[axis]) / cell[axis]));
   }
-  std::int64_t index(std::int64_t i, std::int64_t j, std::int64_t k) const { return (k * n[1] + j) * n[0] + i; }
+  std::int64_t index(std::int64_t i, std::int64_t j, std::int64_t k) const {
+    return (k * n[1] + j) * n[0] + i;
+  }
 };
 
 Box bounds_of(const std::vector<GrainRow>& rows, const std::vector<std::uint32_t>& members) {
@@ -50,8 +52,9 @@ Box bounds_of(const std::vector<GrainRow>& rows, const std::vector<std::uint32_t
   return b;
 }
 
-/// Sets the cells: about as large as the class's pairs reach, larger where that would make far more cells than
-/// grains (a few fine grains in a long domain), so that memory stays proportional to the number of grains.
+/// Sets the cells: about as large as the class's pairs reach, larger where that would make far more cells
+/// than grains (a few fine grains in a long domain), so that memory stays proportional to the number of
+/// grains.
 void size_cells(Level& level, const Box& box, double edge, std::size_t grains, const SearchSpace& space) {
   const double budget = 16.0 * static_cast<double>(grains) + 4096;
   for (;; edge *= 1.26) {  // about 2^(1/3): half as many cells
@@ -69,7 +72,8 @@ void size_cells(Level& level, const Box& box, double edge, std::size_t grains, c
   }
 }
 
-void sort_into_cells(Level& level, const std::vector<GrainRow>& rows, const std::vector<std::uint32_t>& slots) {
+void sort_into_cells(Level& level, const std::vector<GrainRow>& rows,
+                     const std::vector<std::uint32_t>& slots) {
   level.start.assign(static_cast<std::size_t>(level.n[0] * level.n[1] * level.n[2]) + 1, 0);
   std::vector<std::uint32_t> cell_of(slots.size());
   for (std::size_t s = 0; s < slots.size(); ++s) {
@@ -141,8 +145,8 @@ Span cells_in_reach(const Level& level, double p, double reach, int axis, bool p
   return span;
 }
 
-void search_level(const std::vector<GrainRow>& rows, const SearchSpace& space, const Level& level, bool own_level,
-                  std::uint32_t i, std::vector<PairRef>& found) {
+void search_level(const std::vector<GrainRow>& rows, const SearchSpace& space, const Level& level,
+                  bool own_level, std::uint32_t i, std::vector<PairRef>& found) {
   const GrainRow& grain = rows[i];
   const double reach = grain.radius + level.largest + space.skin;
   std::array<Span, 3> spans;

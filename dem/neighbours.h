@@ -1,5 +1,5 @@
-// Finds all pairs of grains nearer than a skin: one grid a size class, each with cells of that class's size, so that
-// small grains are not searched at the largest grain's cost.
+// Finds all pairs of grains nearer than a skin: one grid a size class, each with cells of that class's size,
+// so that small grains are not searched at the largest grain's cost.
 #pragma once
 
 #include <array>

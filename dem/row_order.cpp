@@ -33,7 +33,9 @@ void sort_rows_in_space(std::vector<GrainRow>& rows, std::vector<GrainMotion>& m
   std::vector<std::pair<std::uint64_t, std::uint32_t>> keys(rows.size());
   for (std::uint32_t i = 0; i < rows.size(); ++i) {
     const Vec3d p = rows[i].position() - lo;
-    keys[i] = {spread_bits(cell_index(p.x)) | spread_bits(cell_index(p.y)) << 1 | spread_bits(cell_index(p.z)) << 2, i};
+    keys[i] = {
+        spread_bits(cell_index(p.x)) | spread_bits(cell_index(p.y)) << 1 | spread_bits(cell_index(p.z)) << 2,
+        i};
   }
   std::sort(keys.begin(), keys.end());
   std::vector<GrainRow> sorted_rows(rows.size());

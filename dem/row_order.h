@@ -1,4 +1,5 @@
-// Where grains lie in memory: neighbours in space near each other, for the caches. Results do not depend on it.
+// Where grains lie in memory: neighbours in space near each other, for the caches. Results do not depend on
+// it.
 #pragma once
 
 #include <vector>

@@ -18,7 +18,8 @@ Vec3d vec_at(const std::vector<double>& in, std::size_t at) { return {in[at], in
 template <class Map>
 const auto& array_of(const Map& map, const char* name) {
   const auto it = map.find(name);
-  if (it == map.end()) throw InputError(std::string("checkpoint: no array named ") + name + "; start the run anew");
+  if (it == map.end())
+    throw InputError(std::string("checkpoint: no array named ") + name + "; start the run anew");
   return it->second;
 }
 
@@ -111,7 +112,8 @@ void Simulation::restore_springs(const SavedState& s) {
     throw InputError("checkpoint: arrays of unequal length; start the run anew");
   }
   std::vector<std::uint32_t> slot_of_id(static_cast<std::size_t>(next_id_), PairContacts::kNoSlot);
-  for (std::uint32_t slot = 0; slot < rows_.size(); ++slot) slot_of_id[static_cast<std::size_t>(rows_[slot].id)] = slot;
+  for (std::uint32_t slot = 0; slot < rows_.size(); ++slot)
+    slot_of_id[static_cast<std::size_t>(rows_[slot].id)] = slot;
   for (std::size_t k = 0; 2 * k < pair_ids.size(); ++k) {
     for (const Adjacent& e : pair_contacts_.of(slot_of_id.at(static_cast<std::size_t>(pair_ids[2 * k])))) {
       if (rows_[e.slot].id != pair_ids[2 * k + 1]) continue;

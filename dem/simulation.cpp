@@ -27,7 +27,8 @@ Simulation::Simulation(Model model, double time_step, const SimulationOptions& o
   constants_.resize(n * n);
   for (std::size_t a = 0; a < n; ++a) {
     for (std::size_t b = 0; b < n; ++b) {
-      constants_[a * n + b] = derive_pair_constants(model_.materials[a], model_.materials[b], model_.pair(a, b));
+      constants_[a * n + b] =
+          derive_pair_constants(model_.materials[a], model_.materials[b], model_.pair(a, b));
     }
   }
   walls_.resize(model_.walls.size());
@@ -56,7 +57,8 @@ void Simulation::add_grains(std::span<const NewGrain> grains) {
     row.material = g.material;
     row.layer = g.layer;
     rows_.push_back(row);
-    // The first step's acceleration is gravity alone: exact for a grain in flight, first order for one in contact.
+    // The first step's acceleration is gravity alone: exact for a grain in flight, first order for one in
+    // contact.
     motions_.push_back({model_.gravity, 1 / row.mass, {0, 0, 0}, 1 / (0.4 * row.mass * g.radius * g.radius)});
   }
   list_valid_ = list_valid_ && grains.empty();
@@ -104,9 +106,9 @@ void Simulation::finish_and_begin(bool begin_next) {
   if (begin_next) take_report(reports);
 }
 
-/// Synchronous Verlet: positions and velocities that the forces see all belong to the step's end. With half-step
-/// velocities a part of the approach leaks into the slip of large-small contacts (Vyas et al., Comput. Phys. Commun.
-/// 310, 109524, 2025); v + a dt is as accurate as the positions and has no such lag.
+/// Synchronous Verlet: positions and velocities that the forces see all belong to the step's end. With
+/// half-step velocities a part of the approach leaks into the slip of large-small contacts (Vyas et al.,
+/// Comput. Phys. Commun. 310, 109524, 2025); v + a dt is as accurate as the positions and has no such lag.
 Simulation::PassReport Simulation::begin_rows(std::size_t begin, std::size_t end) {
   PassReport report;
   for (std::size_t i = begin; i < end; ++i) {
@@ -147,9 +149,10 @@ void Simulation::take_report(const std::vector<PassReport>& reports) {
     speed = std::max(speed, r.speed_squared);
     left = left || r.left;
     if (r.broken >= 0) {
-      throw UnstableError("grain " + std::to_string(r.broken) + " crossed half its radius in one step (step " +
-                          std::to_string(step_ + 1) + ", t = " + std::to_string(time()) +
-                          " s): the time step is too large for these contacts or speeds; use a smaller [time] step");
+      throw UnstableError(
+          "grain " + std::to_string(r.broken) + " crossed half its radius in one step (step " +
+          std::to_string(step_ + 1) + ", t = " + std::to_string(time()) +
+          " s): the time step is too large for these contacts or speeds; use a smaller [time] step");
     }
   }
   moved_ = std::sqrt(moved);
@@ -216,8 +219,9 @@ void Simulation::check_periodic_lengths() const {
   for (int axis = 0; axis < 3; ++axis) {
     const double length = model_.domain.hi[axis] - model_.domain.lo[axis];
     if (model_.boundary[axis] != AxisBoundary::periodic || length > 2 * (2 * largest + skin_)) continue;
-    throw InputError("domain.box: the periodic axis " + std::string(1, "xyz"[axis]) +
-                     " is shorter than two of the largest grains; make it longer, or the boundary open or a wall");
+    throw InputError(
+        "domain.box: the periodic axis " + std::string(1, "xyz"[axis]) +
+        " is shorter than two of the largest grains; make it longer, or the boundary open or a wall");
   }
 }
 
@@ -225,17 +229,19 @@ void Simulation::rebuild() {
   skin_ = choose_skin();
   check_periodic_lengths();
   std::vector<std::uint32_t> slot_of_id(static_cast<std::size_t>(next_id_), PairContacts::kNoSlot);
-  for (std::uint32_t s = 0; s < built_ids_.size(); ++s) slot_of_id[static_cast<std::size_t>(built_ids_[s])] = s;
+  for (std::uint32_t s = 0; s < built_ids_.size(); ++s)
+    slot_of_id[static_cast<std::size_t>(built_ids_[s])] = s;
   if (sorted_at_ < 0 || rows_.size() != built_ids_.size() || rebuilds_ - sorted_at_ >= kRebuildsPerSort) {
     sort_rows_in_space(rows_, motions_);
     sorted_at_ = rebuilds_;
   }
   std::vector<std::uint32_t> old_slot(rows_.size());
-  for (std::size_t s = 0; s < rows_.size(); ++s) old_slot[s] = slot_of_id[static_cast<std::size_t>(rows_[s].id)];
+  for (std::size_t s = 0; s < rows_.size(); ++s)
+    old_slot[s] = slot_of_id[static_cast<std::size_t>(rows_[s].id)];
 
   const SearchSpace space = search_space();
-  pair_contacts_.replace(options_.reference ? find_pairs_brute_force(rows_, space) : find_pairs(rows_, space), rows_,
-                         old_slot);
+  pair_contacts_.replace(options_.reference ? find_pairs_brute_force(rows_, space) : find_pairs(rows_, space),
+                         rows_, old_slot);
   wall_contacts_.replace(rows_, walls_, skin_, old_slot);
   built_ids_.resize(rows_.size());
   for (std::size_t s = 0; s < rows_.size(); ++s) {
@@ -252,7 +258,8 @@ void Simulation::rebuild() {
 std::vector<std::uint32_t> Simulation::slots_by_id() const {
   std::vector<std::uint32_t> slots(rows_.size());
   for (std::uint32_t s = 0; s < slots.size(); ++s) slots[s] = s;
-  std::sort(slots.begin(), slots.end(), [&](std::uint32_t l, std::uint32_t r) { return rows_[l].id < rows_[r].id; });
+  std::sort(slots.begin(), slots.end(),
+            [&](std::uint32_t l, std::uint32_t r) { return rows_[l].id < rows_[r].id; });
   return slots;
 }
 

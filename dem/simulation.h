@@ -1,5 +1,6 @@
-// Grains moved by contact forces, step by step. Results depend on the model, the grains and the time step alone: not
-// on the number of threads, the order in which grains lie in memory, or when neighbour lists were rebuilt.
+// Grains moved by contact forces, step by step. Results depend on the model, the grains and the time step
+// alone: not on the number of threads, the order in which grains lie in memory, or when neighbour lists were
+// rebuilt.
 #pragma once
 
 #include <array>
@@ -30,8 +31,8 @@ struct SavedState {
 
 class Simulation {
  public:
-  /// Throws InputError when the model cannot be simulated (a periodic axis shorter than two grains is found later,
-  /// when the grains are known).
+  /// Throws InputError when the model cannot be simulated (a periodic axis shorter than two grains is found
+  /// later, when the grains are known).
   Simulation(Model model, double time_step, const SimulationOptions& options = {});
 
   void add_grains(std::span<const NewGrain> grains);
@@ -39,8 +40,8 @@ class Simulation {
   void set_wall_velocity(std::size_t wall, const Vec3d& velocity);
 
   /// Advances by whole steps; afterwards positions, velocities and contacts all belong to the present time.
-  /// Throws UnstableError naming the grain when a position is no longer finite or a grain crosses half its radius in
-  /// one step.
+  /// Throws UnstableError naming the grain when a position is no longer finite or a grain crosses half its
+  /// radius in one step.
   void advance(std::int64_t steps);
 
   std::int64_t step() const { return step_; }
@@ -71,15 +72,15 @@ class Simulation {
  private:
   struct WallMotion {
     Vec3d velocity{0, 0, 0};
-    Vec3d offset{0, 0, 0};      // of the shape at `since` from the shape at time 0
-    std::int64_t since = 0;     // step
+    Vec3d offset{0, 0, 0};   // of the shape at `since` from the shape at time 0
+    std::int64_t since = 0;  // step
   };
   /// What one block of grains reports of a pass.
   struct PassReport {
-    double moved_squared = 0;   // farthest from where the list was built [m^2]
+    double moved_squared = 0;  // farthest from where the list was built [m^2]
     double speed_squared = 0;
-    bool left = false;          // a grain crossed an open face
-    std::int64_t broken = -1;   // id of a grain whose motion is no longer sane
+    bool left = false;         // a grain crossed an open face
+    std::int64_t broken = -1;  // id of a grain whose motion is no longer sane
   };
 
   void place_walls();
@@ -122,11 +123,11 @@ class Simulation {
   std::int64_t lost_ = 0;
 
   bool list_valid_ = false;
-  bool begun_ = false;                     // the step after step_ has been begun
+  bool begun_ = false;  // the step after step_ has been begun
   double skin_ = 0;
   double moved_ = 0, fastest_ = 0;
-  std::vector<Shape> built_walls_;         // as they stood when the list was built
-  std::vector<std::int64_t> built_ids_;    // ids by slot when the list was built
+  std::vector<Shape> built_walls_;       // as they stood when the list was built
+  std::vector<std::int64_t> built_ids_;  // ids by slot when the list was built
   std::int64_t rebuilds_ = 0, sorted_at_ = -1;
 };
 

@@ -114,16 +114,16 @@ StepCheck check_step(const Simulation& sim) {
   for_touching_pairs(sim, [&](const GrainRow& a, const GrainRow& b, std::uint32_t) {
     const double reach = a.radius + b.radius;
     consider(sim.constants(a.material, b.material).effective_modulus, a.radius * b.radius / reach,
-             a.mass * b.mass / (a.mass + b.mass), reach - norm(separation(a.position(), b.position(), space)), a.id,
-             b.id);
+             a.mass * b.mass / (a.mass + b.mass), reach - norm(separation(a.position(), b.position(), space)),
+             a.id, b.id);
   });
   for (std::size_t slot = 0; slot < rows.size(); ++slot) {
     for (const WallContact& c : sim.wall_contacts().of(slot)) {
       if (!c.touching) continue;
       const GrainRow& g = rows[slot];
       const double distance = wall_distance(sim.walls()[c.wall], g.position()).distance;
-      consider(sim.constants(g.material, sim.model().walls[c.wall].material).effective_modulus, g.radius, g.mass,
-               g.radius - distance, g.id, -1);
+      consider(sim.constants(g.material, sim.model().walls[c.wall].material).effective_modulus, g.radius,
+               g.mass, g.radius - distance, g.id, -1);
     }
   }
   return worst;

@@ -1,5 +1,5 @@
-// Numbers of a simulation at its present time. Sums run in the order of ids, so they are the same bits whatever the
-// threads and lists. Valid after Simulation::advance().
+// Numbers of a simulation at its present time. Sums run in the order of ids, so they are the same bits
+// whatever the threads and lists. Valid after Simulation::advance().
 #pragma once
 
 #include <cstdint>
@@ -18,24 +18,24 @@ struct ContactStatistics {
 
 /// Forces of the powder on one wall.
 struct WallStatistics {
-  double normal_force = 0;    // sum of the pressing parts of the contact forces (cohesion counts negative) [N]
-  double shear_force = 0;     // magnitude of the vector sum of the tangential parts [N]
-  double shear_force_sum = 0; // sum of their magnitudes [N]
+  double normal_force = 0;  // sum of the pressing parts of the contact forces (cohesion counts negative) [N]
+  double shear_force = 0;   // magnitude of the vector sum of the tangential parts [N]
+  double shear_force_sum = 0;  // sum of their magnitudes [N]
   std::int64_t contacts = 0;
-  std::int64_t particles = 0; // grains that touch it
-  double contact_area = 0;    // sum of pi a^2, a^2 = R overlap (Hertz) [m^2]
-  double footprint_area = 0;  // 50 um cells of the surface that powder touches [m^2]
+  std::int64_t particles = 0;  // grains that touch it
+  double contact_area = 0;     // sum of pi a^2, a^2 = R overlap (Hertz) [m^2]
+  double footprint_area = 0;   // 50 um cells of the surface that powder touches [m^2]
 };
 
 struct MotionStatistics {
-  double kinetic_energy = 0;      // translation and rotation [J]
-  double fall_energy_mean = 0;    // mean of m g d over grains [J]
-  double fastest = 0;             // [m/s]
+  double kinetic_energy = 0;    // translation and rotation [J]
+  double fall_energy_mean = 0;  // mean of m g d over grains [J]
+  double fastest = 0;           // [m/s]
 };
 
 /// How fine the time step is for the contacts as they are: dt over sqrt(m*/S) of the stiffest.
 struct StepCheck {
-  double ratio = 0;               // 0 without contacts
+  double ratio = 0;                         // 0 without contacts
   std::int64_t grain_a = -1, grain_b = -1;  // b < 0: a wall
 };
 

@@ -7,7 +7,9 @@
 namespace interstice::dem {
 namespace {
 
-double mass_of(double radius, double density) { return 4.0 / 3.0 * M_PI * radius * radius * radius * density; }
+double mass_of(double radius, double density) {
+  return 4.0 / 3.0 * M_PI * radius * radius * radius * density;
+}
 
 }  // namespace
 
@@ -16,7 +18,8 @@ double rayleigh_time(double radius, const Material& m) {
   return M_PI * radius * std::sqrt(m.density / shear_modulus) / (0.1631 * m.poisson_ratio + 0.8766);
 }
 
-double collision_time(double effective_mass, double effective_radius, double effective_modulus, double speed) {
+double collision_time(double effective_mass, double effective_radius, double effective_modulus,
+                      double speed) {
   // 2.94328 (integral of the collision) * (15/16)^(2/5)
   return 2.86827 * std::pow(effective_mass * effective_mass /
                                 (effective_radius * effective_modulus * effective_modulus * speed),
@@ -31,14 +34,15 @@ StepLimits step_limits(const Model& model, const std::vector<SmallestGrain>& sma
   };
   for (const SmallestGrain& a : smallest) {
     const double mass_a = mass_of(a.radius, model.materials[a.material].density);
-    limits.rayleigh_time = std::min(limits.rayleigh_time, rayleigh_time(a.radius, model.materials[a.material]));
+    limits.rayleigh_time =
+        std::min(limits.rayleigh_time, rayleigh_time(a.radius, model.materials[a.material]));
     if (!(speed > 0)) continue;
     for (const SmallestGrain& b : smallest) {
       const double mass_b = mass_of(b.radius, model.materials[b.material].density);
       limits.collision_time =
-          std::min(limits.collision_time,
-                   collision_time(mass_a * mass_b / (mass_a + mass_b), a.radius * b.radius / (a.radius + b.radius),
-                                  modulus(a.material, b.material), speed));
+          std::min(limits.collision_time, collision_time(mass_a * mass_b / (mass_a + mass_b),
+                                                         a.radius * b.radius / (a.radius + b.radius),
+                                                         modulus(a.material, b.material), speed));
     }
     for (const Wall& wall : model.walls) {
       limits.collision_time = std::min(

@@ -11,7 +11,8 @@ struct StepLimits {
   double collision_time = 0;  // the shortest Hertz collision time [s]
 };
 
-/// Rayleigh time of a grain [s]: pi r sqrt(rho/G) / (0.1631 nu + 0.8766) (Thornton & Randall 1988; Ning 1995).
+/// Rayleigh time of a grain [s]: pi r sqrt(rho/G) / (0.1631 nu + 0.8766) (Thornton & Randall 1988; Ning
+/// 1995).
 double rayleigh_time(double radius, const Material& material);
 
 /// Hertz collision time [s]: 2.8683 (m*^2 / (R* E*^2 v))^(1/5) (Johnson, Contact Mechanics, 1985, eq. 11.24).

@@ -13,7 +13,9 @@ struct WallDistance {
   Vec3d normal;     // unit, from the wall to the point
 };
 
-inline WallDistance wall_distance(const Plane& plane, const Vec3d& p) { return {plane.distance(p), plane.normal}; }
+inline WallDistance wall_distance(const Plane& plane, const Vec3d& p) {
+  return {plane.distance(p), plane.normal};
+}
 
 inline WallDistance wall_distance(const Box& box, const Vec3d& p) {
   const Vec3d nearest{std::clamp(p.x, box.lo.x, box.hi.x), std::clamp(p.y, box.lo.y, box.hi.y),
@@ -24,7 +26,8 @@ inline WallDistance wall_distance(const Box& box, const Vec3d& p) {
     const double d = std::sqrt(d2);
     return {d, (1 / d) * away};
   }
-  // The centre is inside: out through the nearest face (the first of them, so that ties are decided the same way).
+  // The centre is inside: out through the nearest face (the first of them, so that ties are decided the same
+  // way).
   WallDistance best{-1e300, {0, 0, 1}};
   for (int axis = 0; axis < 3; ++axis) {
     for (int side = 0; side < 2; ++side) {

@@ -1,5 +1,5 @@
-// One contact, whole: the sub-laws put together in the order in which the physics is derived. The features that a
-// scene does not name are compiled out.
+// One contact, whole: the sub-laws put together in the order in which the physics is derived. The features
+// that a scene does not name are compiled out.
 #pragma once
 
 #include "base/vec3.h"
@@ -56,9 +56,9 @@ INTERSTICE_HD inline ContactForce<T> evaluate_contact(const ContactKinematics<T>
   if constexpr (Features::tangential) {
     const Vec3<T> slip = k.velocity - normal_speed * k.normal;
     const T shear_stiffness = T(8) * T(c.shear_modulus) * root;
-    const auto t = mindlin(displacement, k.normal, slip, dt, shear_stiffness,
-                           dashpot(T(c.damping), shear_stiffness, k.effective_mass),
-                           T(c.friction) * abs_of(repulsion));
+    const auto t =
+        mindlin(displacement, k.normal, slip, dt, shear_stiffness,
+                dashpot(T(c.damping), shear_stiffness, k.effective_mass), T(c.friction) * abs_of(repulsion));
     out.tangential = t.force;
     out.displacement = t.displacement;
     out.force += t.force;

@@ -1,5 +1,5 @@
-// Viscous damping that returns the restitution asked for, at any speed, for the Hertz force (Tsuji, Tanaka & Ishida,
-// Powder Technol. 71, 1992, eq. 17, with the closed form of Antypov & Elliott, EPL 94, 2011, eq. 7).
+// Viscous damping that returns the restitution asked for, at any speed, for the Hertz force (Tsuji, Tanaka &
+// Ishida, Powder Technol. 71, 1992, eq. 17, with the closed form of Antypov & Elliott, EPL 94, 2011, eq. 7).
 #pragma once
 
 #include <cmath>

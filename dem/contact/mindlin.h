@@ -1,5 +1,5 @@
-// Tangential spring with history and Coulomb limit (Mindlin 1949 no-slip stiffness; Cundall & Strack 1979 for the
-// incremental form; Johnson, Contact Mechanics, 1985, eq. 7.43).
+// Tangential spring with history and Coulomb limit (Mindlin 1949 no-slip stiffness; Cundall & Strack 1979 for
+// the incremental form; Johnson, Contact Mechanics, 1985, eq. 7.43).
 #pragma once
 
 #include "base/vec3.h"
@@ -28,7 +28,8 @@ INTERSTICE_HD inline TangentialForce<T> mindlin(const Vec3<T>& displacement, con
   const T scale = limit / select(slips, magnitude, T(1));
   const Vec3<T> sliding = scale * trial;
   const Vec3<T> relaxed = (T(-1) / stiffness) * (sliding + dashpot * velocity);
-  return {{select(slips, sliding.x, trial.x), select(slips, sliding.y, trial.y), select(slips, sliding.z, trial.z)},
+  return {{select(slips, sliding.x, trial.x), select(slips, sliding.y, trial.y),
+           select(slips, sliding.z, trial.z)},
           {select(slips, relaxed.x, spring.x), select(slips, relaxed.y, spring.y),
            select(slips, relaxed.z, spring.z)}};
 }

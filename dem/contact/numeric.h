@@ -1,6 +1,6 @@
-// The few operations that the contact laws need beyond + - * /, for a scalar on host and device. A SIMD pack type
-// provides the same names by overload; the laws then run on it unchanged. Choices are selects, not branches, because
-// the lanes of a pack may differ.
+// The few operations that the contact laws need beyond + - * /, for a scalar on host and device. A SIMD pack
+// type provides the same names by overload; the laws then run on it unchanged. Choices are selects, not
+// branches, because the lanes of a pack may differ.
 #pragma once
 
 #include <cmath>

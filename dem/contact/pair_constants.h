@@ -27,7 +27,8 @@ struct PairConstants {
   double cohesion_energy_density = 0;  // [J/m^3]
 };
 
-/// 1/E* = sum (1 - nu^2)/E and 1/G* = sum 2 (2 - nu)(1 + nu)/E (Johnson, Contact Mechanics, 1985, eqs 4.22 and 7.42).
+/// 1/E* = sum (1 - nu^2)/E and 1/G* = sum 2 (2 - nu)(1 + nu)/E (Johnson, Contact Mechanics, 1985, eqs 4.22
+/// and 7.42).
 PairConstants derive_pair_constants(const Material& a, const Material& b, const PairCoefficients& pair);
 
 }  // namespace interstice::dem

@@ -1,6 +1,6 @@
 // Simplified JKR cohesion: an attraction proportional to the area in which the undeformed surfaces intersect
-// (the `sjkr` model of LIGGGHTS, Kloss et al., Prog. Comput. Fluid Dyn. 12, 2012). No force beyond contact, no
-// hysteresis.
+// (the `sjkr` model of LIGGGHTS, Kloss et al., Prog. Comput. Fluid Dyn. 12, 2012). No force beyond contact,
+// no hysteresis.
 #pragma once
 
 #include "dem/contact/numeric.h"

@@ -1,0 +1,134 @@
+// interstice check SCENE.toml: what a run would do and cost, without doing it.
+#include <fmt/format.h>
+#include <tbb/info.h>
+
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "apps/command.h"
+#include "coupling/scene/read_scene.h"
+#include "coupling/stream/build_model.h"
+#include "coupling/stream/schedule.h"
+#include "coupling/stream/step_choice.h"
+
+namespace interstice::apps {
+namespace {
+
+// Measured on a settled bed (docs/PERFORMANCE.md): rows, lists, springs and results; and one core's rate.
+constexpr double kBytesPerGrain = 620, kParticleStepsPerSecondPerCore = 3e6;
+
+struct CheckArguments {
+  std::string scene;
+  std::vector<std::string> overrides;
+  bool json = false;
+};
+
+struct Estimate {
+  double grains = 0, simulated_at_most = 0, steps_at_most = 0, memory = 0, seconds = 0;
+  double smallest = std::numeric_limits<double>::infinity(), largest = 0;  // diameters [m]
+};
+
+Estimate estimate(const scene::Scene& scene, double step) {
+  Estimate e;
+  for (const scene::Particles& p : scene.particles) {
+    e.grains += static_cast<double>(p.list ? static_cast<std::int64_t>(p.list->grains.size()) : p.count);
+    if (p.rain) {
+      e.smallest = std::min(e.smallest, p.diameter.min);
+      e.largest = std::max(e.largest, p.diameter.max);
+    } else if (p.list) {
+      for (const auto& g : p.list->grains) {
+        e.smallest = std::min(e.smallest, g.diameter);
+        e.largest = std::max(e.largest, g.diameter);
+      }
+    }
+  }
+  for (const scene::Phase& p : scene.phases) e.simulated_at_most += p.duration.value_or(p.at_most);
+  e.steps_at_most = static_cast<double>(stream::steps_in(e.simulated_at_most, step));
+  double cells = 0;
+  for (const scene::Field& f : scene.fields) {
+    const Vec3d s = f.box.size();
+    cells += std::ceil(s.x / f.voxel) * std::ceil(s.y / f.voxel) * std::ceil(s.z / f.voxel);
+  }
+  e.memory =
+      e.grains * (kBytesPerGrain + 2 * 150) + cells * 40;  // two buffers of columns; grids and averages
+  e.seconds =
+      e.grains * e.steps_at_most / (kParticleStepsPerSecondPerCore * tbb::info::default_concurrency());
+  return e;
+}
+
+std::string duration(double s) {
+  if (s < 120) return fmt::format("{:.0f} s", s);
+  if (s < 7200) return fmt::format("{:.0f} min", s / 60);
+  if (s < 172800) return fmt::format("{:.1f} h", s / 3600);
+  return fmt::format("{:.1f} days", s / 86400);
+}
+
+nlohmann::ordered_json as_json(const scene::Scene& scene, const stream::StepChoice& c, const Estimate& e) {
+  nlohmann::ordered_json j;
+  j["title"] = scene.title;
+  j["particles"] = e.grains;
+  j["diameter_min_m"] = e.smallest;
+  j["diameter_max_m"] = e.largest;
+  j["time_step_s"] = c.step;
+  j["time_step_limited_by"] = c.limited_by;
+  j["rayleigh_time_s"] = c.limits.rayleigh_time;
+  j["collision_time_s"] =
+      std::isfinite(c.limits.collision_time) ? nlohmann::ordered_json(c.limits.collision_time) : nullptr;
+  j["collision_speed_m_s"] = c.speed;
+  j["simulated_at_most_s"] = e.simulated_at_most;
+  j["steps_at_most"] = e.steps_at_most;
+  j["memory_bytes"] = e.memory;
+  j["estimated_wall_s"] = e.seconds;
+  j["phases"] = scene.phases.size();
+  j["walls"] = scene.walls.size();
+  j["fields"] = scene.fields.size();
+  return j;
+}
+
+void print(const scene::Scene& scene, const stream::StepChoice& c, const Estimate& e) {
+  fmt::print("{}\n", scene.title.empty() ? scene.file : scene.title);
+  fmt::print("  particles       {:.0f}, {:.3g} to {:.3g} um\n", e.grains, e.smallest * 1e6, e.largest * 1e6);
+  fmt::print("  time step       {:.4g} s, limited by {}\n", c.step, c.limited_by);
+  fmt::print("    Rayleigh time   {:.4g} s (the step is {:.3g} of it)\n", c.limits.rayleigh_time,
+             c.rayleigh_fraction);
+  if (std::isfinite(c.limits.collision_time)) {
+    fmt::print("    collision time  {:.4g} s at {:.3g} m/s (the step is {:.3g} of it)\n",
+               c.limits.collision_time, c.speed, c.collision_fraction);
+  } else {
+    fmt::print("    collision time  none: nothing moves\n");
+  }
+  fmt::print("  phases          {}, {:.4g} s at most, {:.4g} steps at most\n", scene.phases.size(),
+             e.simulated_at_most, e.steps_at_most);
+  fmt::print("  memory          about {:.0f} MB\n", e.memory / 1e6);
+  fmt::print("  wall time       about {} at most on this machine\n", duration(e.seconds));
+}
+
+void check(const CheckArguments& a) {
+  std::vector<std::string> warnings;
+  const scene::Scene scene = scene::read_scene(a.scene, a.overrides, &warnings);
+  const stream::StepChoice choice = stream::choose_step(scene, stream::build_model(scene));
+  for (const auto* list : {&warnings, &choice.warnings}) {
+    for (const std::string& w : *list) fmt::print(stderr, "warning: {}\n", w);
+  }
+  const Estimate e = estimate(scene, choice.step);
+  if (a.json) {
+    fmt::print("{}\n", as_json(scene, choice, e).dump(2));
+  } else {
+    print(scene, choice, e);
+  }
+}
+
+}  // namespace
+
+void add_check(CLI::App& root) {
+  auto a = std::make_shared<CheckArguments>();
+  CLI::App* c = root.add_subcommand("check", "validate a scene; print its time step, steps, memory and time");
+  c->add_option("scene", a->scene, "scene file (TOML)")->required();
+  c->add_option("--set", a->overrides, "override: path.to.key=value (repeatable)")->allow_extra_args(false);
+  c->add_flag("--json", a->json, "print one JSON object");
+  c->callback([a] { check(*a); });
+}
+
+}  // namespace interstice::apps

@@ -1,0 +1,102 @@
+#include "coupling/stream/build_model.h"
+
+#include <cassert>
+
+#include "coupling/scene/sizes.h"
+
+namespace interstice::stream {
+namespace {
+
+/// The coefficients stated for two materials; zeros for a pair that cannot meet (read_scene() saw to that).
+dem::PairCoefficients coefficients_of(const scene::Scene& scene, const std::string& a, const std::string& b) {
+  for (const scene::ContactPair& p : scene.contact.pairs) {
+    if ((p.materials[0] == a && p.materials[1] == b) || (p.materials[0] == b && p.materials[1] == a)) {
+      return {p.restitution, p.friction, p.rolling_friction, p.cohesion_energy_density};
+    }
+  }
+  return {};
+}
+
+/// The planes of the axes whose boundary is a wall.
+void add_bounding_walls(const scene::Scene& scene, dem::Model& model) {
+  for (int axis = 0; axis < 3; ++axis) {
+    if (scene.domain.boundary[axis] != scene::Boundary::wall) continue;
+    const auto material = static_cast<std::uint16_t>(material_index(scene, scene.domain.wall_material[axis]));
+    Vec3d inward{0, 0, 0};
+    inward[axis] = 1;
+    model.walls.push_back({Plane{scene.domain.box.lo, inward}, material});
+    model.walls.push_back({Plane{scene.domain.box.hi, -inward}, material});
+  }
+}
+
+}  // namespace
+
+std::size_t material_index(const scene::Scene& scene, const std::string& name) {
+  for (std::size_t i = 0; i < scene.materials.size(); ++i) {
+    if (scene.materials[i].name == name) return i;
+  }
+  assert(!"read_scene() lets no unknown material through");
+  return 0;
+}
+
+dem::Model build_model(const scene::Scene& scene) {
+  dem::Model model;
+  model.domain = scene.domain.box;
+  for (int axis = 0; axis < 3; ++axis) {
+    model.boundary[axis] = scene.domain.boundary[axis] == scene::Boundary::periodic
+                               ? dem::AxisBoundary::periodic
+                               : dem::AxisBoundary::open;
+  }
+  model.gravity = scene.domain.gravity;
+  for (const scene::Material& m : scene.materials) {
+    model.materials.push_back({m.density, m.youngs_modulus, m.poisson_ratio});
+  }
+  for (const scene::Material& a : scene.materials) {
+    for (const scene::Material& b : scene.materials) {
+      model.pairs.push_back(coefficients_of(scene, a.name, b.name));
+    }
+  }
+  model.features = {scene.contact.tangential == scene::TangentialLaw::mindlin,
+                    scene.contact.rolling == scene::RollingLaw::cdt,
+                    scene.contact.cohesion == scene::CohesionLaw::sjkr,
+                    scene.contact.damping == scene::Damping::clipped};
+  for (const scene::Wall& w : scene.walls) {
+    model.walls.push_back({w.shape, static_cast<std::uint16_t>(material_index(scene, w.material))});
+  }
+  add_bounding_walls(scene, model);
+  return model;
+}
+
+std::vector<PhasedRain> build_rain(const scene::Scene& scene) {
+  std::vector<PhasedRain> all;
+  for (std::size_t i = 0; i < scene.particles.size(); ++i) {
+    const scene::Particles& p = scene.particles[i];
+    if (!p.rain) continue;
+    PhasedRain phased;
+    phased.phase = p.rain->phase;
+    phased.interval = p.rain->interval;
+    // Two streams an entry: one draws sizes, one draws places.
+    phased.rain.radii = scene::sample_diameters(p.diameter, p.count, scene.seed, 2 * i);
+    for (double& r : phased.rain.radii) r *= 0.5;
+    phased.rain.random = Random(scene.seed, 2 * i + 1);
+    phased.rain.box = p.rain->box;
+    phased.rain.velocity = p.rain->velocity;
+    phased.rain.material = static_cast<std::uint16_t>(material_index(scene, p.material));
+    all.push_back(std::move(phased));
+  }
+  return all;
+}
+
+std::vector<dem::NewGrain> build_placed_grains(const scene::Scene& scene) {
+  std::vector<dem::NewGrain> grains;
+  for (const scene::Particles& p : scene.particles) {
+    if (!p.list) continue;
+    const auto material = static_cast<std::uint16_t>(material_index(scene, p.material));
+    for (const scene::PlacedGrain& g : p.list->grains) {
+      grains.push_back({g.position, 0.5 * g.diameter, g.velocity, g.spin, material, 0});
+    }
+  }
+  return grains;
+}
+
+}  // namespace interstice::stream

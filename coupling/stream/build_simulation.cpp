@@ -1,1 +1,0 @@
-// (filled in with its first commit)

@@ -1,0 +1,1 @@
+#include "coupling/stream/run_figures.h"
