@@ -9,6 +9,7 @@
 #include <fstream>
 #include <sstream>
 // Header only, and in this file alone: what links this library then needs no library of toml++.
+#define TOML_ENABLE_FORMATTERS 0
 #include <toml++/toml.h>
 
 #include "base/error.h"

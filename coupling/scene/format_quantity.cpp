@@ -43,22 +43,22 @@ std::string with_unit(const std::string& number, std::string_view prefix, Dimens
 
 }  // namespace
 
-std::string format_exact(double si_value, Dimension dimension) {
-  return with_unit(fmt::format("{}", si_value), "", dimension);
+std::string format_exact(double value, Dimension dimension) {
+  return with_unit(fmt::format("{}", value), "", dimension);
 }
 
-std::string format_quantity(double si_value, Dimension dimension, int digits) {
+std::string format_quantity(double value, Dimension dimension, int digits) {
   Prefix chosen{"", 1};
-  if (si_value != 0 && std::isfinite(si_value)) {
+  if (value != 0 && std::isfinite(value)) {
     for (const Prefix& prefix :
          kPrefixes) {  // from large to small: the first that leaves a number of at least 1
       if (!takes_prefix(dimension, prefix.scale)) continue;
       chosen = prefix;
       // rounding may carry 999.96 over to 1000: that is the next prefix's 1
-      if (std::abs(si_value) >= prefix.scale * (1 - 0.5 * std::pow(10.0, -digits))) break;
+      if (std::abs(value) >= prefix.scale * (1 - 0.5 * std::pow(10.0, -digits))) break;
     }
   }
-  return with_unit(fmt::format("{:.{}g}", si_value / chosen.scale, digits), chosen.symbol, dimension);
+  return with_unit(fmt::format("{:.{}g}", value / chosen.scale, digits), chosen.symbol, dimension);
 }
 
 }  // namespace interstice::scene

@@ -8,10 +8,10 @@
 namespace interstice::scene {
 
 /// The shortest text that reads back as the very same double: "1.73e-05 m".
-std::string format_exact(double si_value, Dimension dimension);
+std::string format_exact(double value, Dimension dimension);
 
 /// For people: "17.3 um", "0.05 m/s", "1 GPa"; at most `digits` significant digits.
-std::string format_quantity(double si_value, Dimension dimension, int digits = 4);
+std::string format_quantity(double value, Dimension dimension, int digits = 4);
 
 inline std::string format_length(double metres) { return format_quantity(metres, Dimension::length); }
 inline std::string format_time(double seconds) { return format_quantity(seconds, Dimension::time); }

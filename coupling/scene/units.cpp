@@ -210,7 +210,7 @@ std::string noun_of(const Powers& powers) {
   for (int i = 0; i <= static_cast<int>(Dimension::angular_velocity); ++i)
     if (row(static_cast<Dimension>(i)).powers == powers)
       return std::string(row(static_cast<Dimension>(i)).info.noun);
-  return "of another dimension";
+  return "something else";
 }
 
 QuantityProblem not_a_number(std::string_view text, Dimension expected) {
