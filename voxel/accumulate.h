@@ -1,6 +1,8 @@
 // From spheres and walls to the leaves of the field's grids, one block of cells at a time.
 #pragma once
 
+#include <openvdb/openvdb.h>
+
 #include <memory>
 #include <vector>
 

@@ -1,5 +1,6 @@
 #include "voxel/field.h"
 
+#include <openvdb/openvdb.h>
 #include <algorithm>
 #include <cmath>
 #include <numbers>

@@ -6,11 +6,10 @@
 #include <memory>
 #include <string>
 
+#include "voxel/float_grid.h"
 #include "voxel/lattice.h"
 #include "voxel/solids.h"
 #include "voxel/spheres.h"
-
-#include <openvdb/openvdb.h>
 
 namespace interstice::voxel {
 
@@ -52,12 +51,12 @@ struct FieldSums {
 struct Field {
   Lattice lattice;
   FieldSums sums;
-  openvdb::FloatGrid::Ptr solid_fraction;
-  openvdb::FloatGrid::Ptr void_fraction;
-  openvdb::FloatGrid::Ptr available_fraction;       // null without walls (then 1 everywhere)
-  openvdb::FloatGrid::Ptr mass_density;             // [kg/m^3]; null where no density is known
-  openvdb::FloatGrid::Ptr solid_fraction_averaged;  // sum of solid / sum of available; null unless asked for
-  openvdb::FloatGrid::Ptr void_fraction_averaged;   // 1 - solid_fraction_averaged
+  FloatGridPtr solid_fraction;
+  FloatGridPtr void_fraction;
+  FloatGridPtr available_fraction;       // null without walls (then 1 everywhere)
+  FloatGridPtr mass_density;             // [kg/m^3]; null where no density is known
+  FloatGridPtr solid_fraction_averaged;  // sum of solid / sum of available; null unless asked for
+  FloatGridPtr void_fraction_averaged;   // 1 - solid_fraction_averaged
 };
 
 /// Computes the fields asked for. Same bits for any number of threads; a voxel's bits depend only on the

@@ -1,5 +1,6 @@
 #include "voxel/grids.h"
 
+#include <openvdb/openvdb.h>
 #include <tbb/parallel_for.h>
 
 #include <cstdio>

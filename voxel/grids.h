@@ -1,6 +1,8 @@
 // The OpenVDB side of a field: grids with their transform and metadata, and leaves put into their trees.
 #pragma once
 
+#include <openvdb/openvdb.h>
+
 #include <string>
 #include <vector>
 

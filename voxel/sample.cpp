@@ -1,5 +1,7 @@
 #include "voxel/sample.h"
 
+#include <openvdb/openvdb.h>
+
 namespace interstice::voxel {
 
 namespace {
