@@ -58,6 +58,9 @@ std::string format_quantity(double value, Dimension dimension, int digits) {
       if (std::abs(value) >= prefix.scale * (1 - 0.5 * std::pow(10.0, -digits))) break;
     }
   }
+  // far beyond the last prefix the plain unit reads better: 1e+20 Pa
+  const double shown = std::abs(value) / chosen.scale;
+  if (shown >= 1e6 || shown < 1e-3) chosen = {"", 1};
   return with_unit(fmt::format("{:.{}g}", value / chosen.scale, digits), chosen.symbol, dimension);
 }
 

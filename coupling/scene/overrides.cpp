@@ -112,7 +112,7 @@ void apply_override(Value& document, const std::string& assignment, Problems& pr
     Value value = parse_override_value(trim(std::string_view(assignment).substr(equals + 1)), place);
     if (Value* target = reach(document, path, place, problems)) *target = std::move(value);
   } catch (const InputError& error) {
-    problems.error(place, "", std::string_view(error.what()).substr(text_of(place).size() + 2));
+    problems.error(place, "", std::string_view(error.messages().front()).substr(text_of(place).size() + 2));
   }
 }
 

@@ -71,7 +71,11 @@ std::string nearest(std::string_view word, const std::vector<std::string>& candi
   std::string best;
   std::size_t least = std::max<std::size_t>(2, word.size() / 2);  // farther than this is another word
   for (const std::string& candidate : candidates) {
-    const std::size_t distance = edit_distance(word, candidate);
+    // whoever writes the same beginning means the same word, whatever the end: "collide", "collision"
+    const bool same_start =
+        word.size() >= 4 && candidate.size() >= 4 && word.substr(0, 4) == candidate.substr(0, 4);
+    const std::size_t distance =
+        std::min<std::size_t>(edit_distance(word, candidate), same_start ? 2 : word.size() + 2);
     if (distance < least || (distance == least && best.empty() && distance < candidate.size())) {
       least = distance;
       best = candidate;

@@ -88,7 +88,7 @@ void check_voxels(const TableReader& table, const Field& field) {
   for (int axis = 0; axis < 3; ++axis) {
     const double along = std::ceil(field.box.size()[axis] / field.voxel);
     if (along > 1e9)
-      table.error(
+      return table.error(
           "voxel",
           fmt::format("{} makes {:.3g} voxels along {}", format_length(field.voxel), along, "xyz"[axis]),
           "at most 1e9 along an axis are allowed", "make the voxels larger or the box smaller");

@@ -78,6 +78,7 @@ class ListReader {
         read_row(cells);
       }
       if (errors_ >= kMostErrors) {
+        ++line_;
         fail({}, "has more errors, not shown", "", "correct these first");
         break;
       }
@@ -101,8 +102,9 @@ class ListReader {
   bool read_header(const std::vector<Cell>& cells) {
     std::array<bool, kColumns.size()> seen{};
     for (const Cell& cell : cells) read_column(cell, seen);
+    const bool all_known = errors_ == 0;  // else the missing one may be the misspelt one
     for (std::size_t i = 0; i < kColumns.size(); ++i)
-      if (kColumns[i].required && !seen[i])
+      if (all_known && kColumns[i].required && !seen[i])
         fail({}, fmt::format("column {} is missing", kColumns[i].name),
              "x, y, z and diameter are due; vx, vy, vz, wx, wy, wz may follow", kHeaderExample);
     return errors_ == 0;

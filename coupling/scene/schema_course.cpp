@@ -100,7 +100,7 @@ constexpr Key kTime[] = {
     {.name = "seed",
      .kind = Kind::integer,
      .fallback = "1",
-     .range = {.lo = 0, .hi = 9.3e18, .reason = "it numbers the streams of random numbers"},
+     .range = {.lo = 0, .hi = 9223372036854775807.0, .reason = "it numbers the streams of random numbers"},
      .about = "the same seed gives the same bits"},
 };
 constexpr Key kStep[] = {

@@ -117,7 +117,7 @@ constexpr Key kPair[] = {
 };
 
 constexpr Section kSections[] = {
-    {"", "The file itself", kRoot},
+    {"", "Its sections, and a title", kRoot},
     {"domain", "Space and gravity", kDomain},
     {"materials.NAME", "One table per material", kMaterial},
     {"contact", "The laws of contact; what is not named is not modelled and costs nothing", kContact},
