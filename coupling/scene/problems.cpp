@@ -4,6 +4,9 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <tuple>
+#include <unordered_map>
+#include <unordered_set>
 
 #include "base/error.h"
 
@@ -50,13 +53,20 @@ void Problems::warn(const Place& place, std::string_view key, std::string_view w
 }
 
 std::vector<std::string> Problems::sorted(std::vector<Entry> entries) {
-  std::stable_sort(entries.begin(), entries.end(), [](const Entry& a, const Entry& b) {
-    return std::pair(a.place.line, a.place.column) < std::pair(b.place.line, b.place.column);
-  });
+  // each source apart, in the order in which they came up: overrides, the scene, its lists
+  std::unordered_map<std::string, std::size_t> rank;
+  for (const Entry& entry : entries)
+    if (entry.place.source) rank.try_emplace(*entry.place.source, rank.size());
+  const auto order = [&](const Entry& entry) {
+    return std::tuple(entry.place.source ? rank[*entry.place.source] : 0, entry.place.line,
+                      entry.place.column);
+  };
+  std::stable_sort(entries.begin(), entries.end(),
+                   [&](const Entry& a, const Entry& b) { return order(a) < order(b); });
   std::vector<std::string> lines;
+  std::unordered_set<std::string> seen;
   for (Entry& entry : entries)
-    if (std::find(lines.begin(), lines.end(), entry.message) == lines.end())
-      lines.push_back(std::move(entry.message));
+    if (seen.insert(entry.message).second) lines.push_back(std::move(entry.message));
   return lines;
 }
 

@@ -19,10 +19,11 @@ std::string example_inside(const Box& box, int axis) {
 void check_inside(const TableReader& table, const std::string& path, const Place& place, const Box& box,
                   int axis, double at) {
   if (at < box.lo[axis] || at >= box.hi[axis])
-    table.problems().error(
-        place, path, fmt::format("{} = {} is outside the field's box", "xyz"[axis], format_length(at)),
-        fmt::format("{} to {} is allowed", format_length(box.lo[axis]), format_length(box.hi[axis])),
-        fmt::format("write for instance {} = {}", "xyz"[axis], example_inside(box, axis)));
+    table.problems().error(place, path,
+                           fmt::format("{} = {} is outside the field's box", "xyz"[axis], format_length(at)),
+                           fmt::format("{} to {} is allowed, the upper end excluded",
+                                       format_length(box.lo[axis]), format_length(box.hi[axis])),
+                           fmt::format("write for instance {} = {}", "xyz"[axis], example_inside(box, axis)));
 }
 
 void read_selectors(const TableReader& table, Field& field) {

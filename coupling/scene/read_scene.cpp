@@ -17,7 +17,6 @@ Scene read_scene(const std::string& path, const std::vector<std::string>& overri
 Scene read_scene_text(std::string_view text, const std::string& source,
                       const std::vector<std::string>& overrides, std::vector<std::string>* warnings) {
   Value document = parse_document(text, source);
-  if (!document.place.source) document.place = {std::make_shared<const std::string>(source), 1, 1};
   Problems problems;
   for (const std::string& assignment : overrides) apply_override(document, assignment, problems);
 

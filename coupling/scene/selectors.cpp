@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <charconv>
 #include <string>
 #include <utility>
 #include <vector>
@@ -111,6 +112,23 @@ Box parse_box(std::string_view text, std::string_view key) {
                  std::string(allowed), "swap the two or make the box larger"});
   }
   return box;
+}
+
+FieldLayers parse_layers(std::string_view text, std::string_view key) {
+  constexpr std::string_view allowed = "z0,z1,NX,NY is due: heights with a unit, counts from 1 to 100000";
+  constexpr std::string_view remedy = "write for instance \"0 um,70 um,40,10\"";
+  const auto parts = split(text, ',');
+  if (parts.size() != 4) fail(key, malformed(text, allowed, remedy));
+  FieldLayers layers{parse_length(parts[0], key), parse_length(parts[1], key), {}};
+  if (!(layers.z_lo < layers.z_hi)) fail(key, malformed(text, "z0 < z1 is due", "swap the two"));
+  for (std::size_t axis = 0; axis < 2; ++axis) {
+    const std::string_view count = parts[axis + 2];
+    const auto result = std::from_chars(count.data(), count.data() + count.size(), layers.columns[axis]);
+    const bool whole = result.ec == std::errc{} && result.ptr == count.data() + count.size();
+    if (!whole || layers.columns[axis] < 1 || layers.columns[axis] > 100000)
+      fail(key, malformed(text, allowed, remedy));
+  }
+  return layers;
 }
 
 double parse_length_unit(std::string_view text, std::string_view key) {

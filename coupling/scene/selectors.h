@@ -21,6 +21,9 @@ std::optional<Slice> try_parse_slice(std::string_view text, QuantityProblem& pro
 Line parse_line(std::string_view text, std::string_view key);
 std::optional<Line> try_parse_line(std::string_view text, QuantityProblem& problem);
 
+/// "z0,z1,NX,NY": the height of the columns and how many there are along x and y.
+FieldLayers parse_layers(std::string_view text, std::string_view key);
+
 /// "um" or "mm" alone, as in `--length-unit um` or `FILE.stl@mm`: how many metres one of it is.
 double parse_length_unit(std::string_view text, std::string_view key);
 

@@ -52,6 +52,13 @@ std::optional<double> try_parse_quantity(std::string_view text, Dimension expect
 /// The same for the command line: throws InputError "key: what; allowed; remedy" (key: "--voxel").
 double parse_quantity(std::string_view text, Dimension expected, std::string_view key);
 
+inline double parse_length(std::string_view text, std::string_view key) {
+  return parse_quantity(text, Dimension::length, key);
+}
+inline double parse_time(std::string_view text, std::string_view key) {
+  return parse_quantity(text, Dimension::time, key);
+}
+
 /// A unit apart from its number, such as the "um" of a column header "x [um]".
 class Unit {
  public:

@@ -159,6 +159,7 @@ TEST(Selectors, ReadBoxesSlicesAndLines) {
   EXPECT_EQ(parse_slice(" z = 35 um", "--slice"), (Slice{2, 35e-6}));
   EXPECT_EQ(parse_line("y@x=9mm,z=35um", "--line"), (Line{1, {9e-3, 0, 35e-6}}));
   EXPECT_EQ(parse_line("z @ y=-1 um, x=2 um", "--line"), (Line{2, {2e-6, -1e-6, 0}}));
+  EXPECT_EQ(parse_layers("0 um,70um, 40,10", "--layers"), (FieldLayers{0, 70e-6, {40, 10}}));
   EXPECT_EQ(parse_length_unit("um", "--length-unit"), 1e-6);
 }
 
@@ -172,6 +173,10 @@ TEST(Selectors, RefuseWhatIsMalformed) {
   for (const std::string_view text : {"y", "y@", "y@x=1mm", "y@x=1mm,y=2mm", "y@x=1mm,x=2mm", "y@x=1,z=2",
                                       "y@@x=1mm,z=1mm", "w@x=1mm,z=2mm", "y@x=1mm,z=1mm,z=2mm", ""})
     EXPECT_THROW(parse_line(text, "--line"), InputError) << text;
+  for (const std::string_view text :
+       {"", "0,70,40,10", "0um,70um,40", "70um,0um,40,10", "0um,70um,0,10", "0um,70um,4.5,10",
+        "0um,70um,40,10,1", "0um,70um,999999,1", "0um,70um,99999999999,1"})
+    EXPECT_THROW(parse_layers(text, "--layers"), InputError) << text;
   for (const std::string_view text : {"", "ms", "5 um"})
     EXPECT_THROW(parse_length_unit(text, "--length-unit"), InputError) << text;
 }
