@@ -1,7 +1,7 @@
-// Figures as PNG through gnuplot; beside each figure its data and the script that drew it (FIGURE.gp, FIGURE.dat).
-// Every write_* makes the folder it needs, throws InputError where the figure itself makes no sense (nothing to draw,
-// a range that is none) and RunError where it cannot be drawn (gnuplot missing or failing, a folder that cannot be
-// written). See docs/FIGURES.md.
+// Figures as PNG through gnuplot; beside each figure its data and the script that drew it (FIGURE.gp,
+// FIGURE.dat). Every write_* makes the folder it needs, throws InputError where the figure itself makes no
+// sense (nothing to draw, a range that is none) and RunError where it cannot be drawn (gnuplot missing or
+// failing, a folder that cannot be written). See docs/FIGURES.md.
 #pragma once
 
 #include <filesystem>
@@ -15,53 +15,58 @@
 
 namespace interstice::figures {
 
-/// A filled map of void fraction on one or more slices, one panel each, one shared colour bar and fixed range.
+/// A filled map of void fraction on one or more slices, one panel each, one shared colour bar and fixed
+/// range.
 struct SlicePanel {
-  std::string title;                // "X2: x = 9 mm"
+  std::string title;  // "X2: x = 9 mm"
   voxel::Samples samples;
   bool averaged = false;            // draw void_fraction_averaged instead of void_fraction
   std::vector<io::WallPose> walls;  // outlines, cut by the slice
 };
 struct SliceFigure {
   std::string title;
-  std::string note;                 // printed small: voxel, averaging length, method
+  std::string note;  // printed small: voxel, averaging length, method
   std::vector<SlicePanel> panels;
   double lo = 0, hi = 1;
-  std::vector<double> contours;     // levels drawn as lines; empty: none
+  std::vector<double> contours;  // levels drawn as lines; empty: none
   std::string colour_label = "void fraction";
-  bool diverging = false;           // for differences: two-sided palette, white in the middle of [lo, hi]
+  bool diverging = false;  // for differences: two-sided palette, white in the middle of [lo, hi]
 };
 void write_slices(const std::filesystem::path& png, const SliceFigure& figure);
 
 /// Curves over a common axis.
 struct Curve {
   std::string name;
-  std::vector<double> x, y;         // NaN breaks the line
+  std::vector<double> x, y;  // NaN breaks the line
 };
 struct CurveFigure {
   std::string title, x_label, y_label, note;
   std::vector<Curve> curves;
   std::optional<std::pair<double, double>> y_range;
-  struct Mark { double x; std::string label; };   // vertical lines (ends of phases)
+  struct Mark {
+    double x;
+    std::string label;
+  };  // vertical lines (ends of phases)
   std::vector<Mark> marks;
 };
-/// `panels` stacked one above the other, sharing their x axis. The first panel's title heads the figure, the titles
-/// of the others their panels; the last non-empty x label and note are printed once, below.
+/// `panels` stacked one above the other, sharing their x axis. The first panel's title heads the figure, the
+/// titles of the others their panels; the last non-empty x label and note are printed once, below.
 void write_curves(const std::filesystem::path& png, const std::vector<CurveFigure>& panels);
 
-enum class GrainView { above, side };               // seen along -z, along +y
+enum class GrainView { above, side };  // seen along -z, along +y
 enum class GrainColour { diameter, speed, layer };
 struct GrainFigure {
   std::string title;
   GrainView view = GrainView::above;
   GrainColour colour = GrainColour::diameter;
-  Box window;                                       // what to show [m]; grains outside are left out
-  std::optional<std::pair<double, double>> range;   // of the colour, in um or mm/s
-  std::string note;                                 // printed small
+  Box window;                                      // what to show [m]; grains outside are left out
+  std::optional<std::pair<double, double>> range;  // of the colour, in um or mm/s
+  std::string note;                                // printed small
 };
-/// Grains as discs to scale, farther ones first, walls as outlines. A long thin window is cut into rows, one below
-/// the other, so that single grains can still be told apart.
-void write_grains(const std::filesystem::path& png, const io::ParticleFrame& frame, const GrainFigure& figure);
+/// Grains as discs to scale, farther ones first, walls as outlines. A long thin window is cut into rows, one
+/// below the other, so that single grains can still be told apart.
+void write_grains(const std::filesystem::path& png, const io::ParticleFrame& frame,
+                  const GrainFigure& figure);
 
 /// True when gnuplot is found on PATH. Where it is not, callers skip their figures and say so once.
 bool plotting_available();

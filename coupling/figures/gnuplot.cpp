@@ -43,6 +43,15 @@ bool is_whole_png(const std::filesystem::path& path) {
   return file.read(tail.data(), tail.size()) && std::string_view(tail.data(), 4) == "IEND";
 }
 
+/// For comments, which end where the line does.
+std::string on_one_line(std::string text) {
+  for (char& c : text) {
+    if (static_cast<unsigned char>(c) < 0x20) c = ' ';
+  }
+  return text;
+}
+
+// Names begin with ./ because gnuplot takes a leading < or | for a command to run.
 std::string script_head(const std::string& stem, const Drawing& drawing) {
   return fmt::format(
       "# Draws {0}.png from {0}.dat. To draw it again: gnuplot {0}.gp   (in this folder)\n"
@@ -52,7 +61,8 @@ std::string script_head(const std::string& stem, const Drawing& drawing) {
       "set terminal pngcairo noenhanced size {3},{4} font 'DejaVu Sans,15' linewidth 1.6 background "
       "'#ffffff'\n"
       "set output target\n",
-      stem, string_literal(stem + ".png"), string_literal(stem + ".dat"), drawing.width, drawing.height);
+      on_one_line(stem), string_literal("./" + stem + ".png"), string_literal("./" + stem + ".dat"),
+      drawing.width, drawing.height);
 }
 
 void make_folder(const std::filesystem::path& folder) {
@@ -67,7 +77,8 @@ std::string string_literal(std::string_view text) {
   std::string result = "'";
   for (const char c : text) {
     if (c == '\'') {
-      result += "''";
+      // A doubled quote would do inside a string, but gnuplot takes one at its beginning for the end.
+      result += "'.\"'\".'";
     } else if (c == '\n') {
       result += "'.\"\\n\".'";
     } else {
@@ -91,9 +102,10 @@ void draw(const std::filesystem::path& png, const Drawing& drawing) {
 
   io::write_atomically(folder / (stem + ".png"), [&](const std::filesystem::path& target) {
     // --default-settings: a user's own start-up file must not change what a figure looks like.
-    const std::string set_target = "target = " + string_literal(target.filename().string());
-    const auto result = run_process(
-        *gnuplot, {"--default-settings", "-e", set_target, script.filename().string()}, folder, patience);
+    const std::string set_target = "target = " + string_literal("./" + target.filename().string());
+    const auto result =
+        run_process(*gnuplot, {"--default-settings", "-e", set_target, "./" + script.filename().string()},
+                    folder, patience);
     if (result.timed_out) throw RunError(fmt::format("gnuplot took more than {} s", patience.count()));
     if (result.status != 0) throw RunError("gnuplot: " + first_error_line(result.errors));
     if (!is_whole_png(target))

@@ -170,10 +170,12 @@ std::string row_of(const io::ParticleFrame& frame, const Layout& layout, std::si
 std::string colour_axis(const Colouring& colour) {
   const double step = tick_step(colour.hi - colour.lo, 6);
   std::string commands = fmt::format("set cbrange [{:g}:{:g}]\n", colour.lo, colour.hi);
-  if (!colour.integers) return commands + fmt::format("set cbtics {:g} font ',14'\n", step);
-  return commands + fmt::format("set cbtics {:g},{:g} font ',14'\nset palette maxcolors {:g}\n",
-                                std::ceil(colour.lo), std::max(1.0, std::ceil(step)),
-                                std::max(1.0, colour.hi - colour.lo));
+  if (!colour.integers)
+    return sequential_palette() + commands + fmt::format("set cbtics {:g} font ',14'\n", step);
+  const int bands = static_cast<int>(std::clamp(std::lround(colour.hi - colour.lo), 1L, 1000L));
+  return banded_palette(bands) + commands +
+         fmt::format("set cbtics {:g},{:g} font ',14'\n", std::ceil(colour.lo),
+                     std::max(1.0, std::ceil(step)));
 }
 
 }  // namespace
@@ -189,8 +191,7 @@ void write_grains(const std::filesystem::path& png, const io::ParticleFrame& fra
   const Colouring colour = colouring(frame, figure, shown);
   const Layout layout = laid_out(window, !figure.note.empty());
 
-  std::string script = sequential_palette();
-  script += colour_axis(colour);
+  std::string script = colour_axis(colour);
   script +=
       "unset key; set tics out nomirror font ',14' scale 0.6; set border lw 1.1; set format '%g'\n"
       "set multiplot\n";

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -9,11 +10,50 @@
 
 namespace interstice::figures {
 
+namespace {
+
 // viridis (van der Walt and Smith 2015, CC0) at nine equal steps: equal steps of the value look equal, also
 // in grey.
+constexpr std::array<std::array<double, 3>, 9> viridis{{{0x44, 0x01, 0x54},
+                                                        {0x47, 0x2c, 0x7a},
+                                                        {0x3b, 0x51, 0x8b},
+                                                        {0x2c, 0x71, 0x8e},
+                                                        {0x21, 0x90, 0x8d},
+                                                        {0x27, 0xad, 0x81},
+                                                        {0x5c, 0xc8, 0x63},
+                                                        {0xaa, 0xdc, 0x32},
+                                                        {0xfd, 0xe7, 0x25}}};
+
+/// The colour at `t` in [0, 1], between its two neighbours in the table.
+std::string viridis_at(double t) {
+  const double place = std::clamp(t, 0.0, 1.0) * (viridis.size() - 1);
+  const auto below = std::min(static_cast<std::size_t>(place), viridis.size() - 2);
+  const double share = place - static_cast<double>(below);
+  std::array<int, 3> rgb{};
+  for (std::size_t c = 0; c < 3; ++c) {
+    rgb[c] = static_cast<int>(std::lround((1 - share) * viridis[below][c] + share * viridis[below + 1][c]));
+  }
+  return fmt::format("'#{:02x}{:02x}{:02x}'", rgb[0], rgb[1], rgb[2]);
+}
+
+}  // namespace
+
 std::string sequential_palette() {
-  return "set palette defined (0 '#440154', 1 '#472c7a', 2 '#3b518b', 3 '#2c718e', 4 '#21908d', "
-         "5 '#27ad81', 6 '#5cc863', 7 '#aadc32', 8 '#fde725')\n";
+  std::string steps;
+  for (std::size_t i = 0; i < viridis.size(); ++i) {
+    steps += fmt::format("{}{} {}", i == 0 ? "" : ", ", i,
+                         viridis_at(static_cast<double>(i) / (viridis.size() - 1)));
+  }
+  return "set palette defined (" + steps + ")\n";
+}
+
+std::string banded_palette(int bands) {
+  std::string steps;
+  for (int i = 0; i < bands; ++i) {
+    const std::string colour = viridis_at(bands > 1 ? static_cast<double>(i) / (bands - 1) : 0.5);
+    steps += fmt::format("{}{} {}, {} {}", i == 0 ? "" : ", ", i, colour, i + 1, colour);
+  }
+  return "set palette defined (" + steps + ")\n";
 }
 
 std::string diverging_palette() {

@@ -6,8 +6,10 @@
 
 namespace interstice::figures {
 
-/// The palettes, defined once: viridis (sequential), and blue-white-vermillion (for differences).
+/// The palettes, defined once: viridis (sequential), the same in `bands` equal bands (for whole numbers), and
+/// blue-white-vermillion (for differences).
 std::string sequential_palette();
+std::string banded_palette(int bands);
 std::string diverging_palette();
 
 /// Curve number `index` in Okabe and Ito's colours, which colour-blind people and grey printers keep apart,

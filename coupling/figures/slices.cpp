@@ -157,7 +157,14 @@ std::string contour_tables(const SliceFigure& figure, const std::vector<Panel>& 
   std::string commands = "set contour base; unset surface; set cntrparam levels discrete " + levels + "\n";
   for (std::size_t i = 0; i < panels.size(); ++i) {
     if (panels[i].n[0] < 2 || panels[i].n[1] < 2) continue;
-    commands += fmt::format("set table $contours{0}; splot data index {0} using 1:2:3; unset table\n", i);
+    const Extent& e = panels[i].extent;
+    const Point scale = panels[i].scale();
+    // Ranges are given, for gnuplot refuses to find its own where no cell has a value.
+    commands += fmt::format(
+        "set table $contours{0}; splot [{1:.8g}:{2:.8g}][{3:.8g}:{4:.8g}][-10:10] data index {0} using "
+        "1:2:3; "
+        "unset table\n",
+        i, e.lo[0] * scale[0], e.hi[0] * scale[0], e.lo[1] * scale[1], e.hi[1] * scale[1]);
   }
   return commands + "unset contour; set surface\n";
 }

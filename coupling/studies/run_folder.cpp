@@ -1,0 +1,141 @@
+#include "coupling/studies/run_folder.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "base/error.h"
+
+namespace interstice::studies {
+namespace {
+
+namespace fs = std::filesystem;
+
+nlohmann::json read_json(const fs::path& path) {
+  std::ifstream file(path);
+  if (!file) {
+    throw InputError(fmt::format("{}: there is no run.json in it; give a folder that `interstice run` wrote",
+                                 path.parent_path().string()));
+  }
+  try {
+    return nlohmann::json::parse(file);
+  } catch (const nlohmann::json::exception& error) {
+    throw InputError(fmt::format("{}: no JSON: {}", path.string(), error.what()));
+  }
+}
+
+PhaseSpan phase_from(const fs::path& file, const nlohmann::json& entry, std::size_t index) {
+  const auto number = [&](const char* key) {
+    const auto at = entry.find(key);
+    if (at == entry.end() || !at->is_number()) {
+      throw InputError(fmt::format("{}: phases[{}].{}: no number", file.string(), index, key));
+    }
+    return at->get<double>();
+  };
+  if (!entry.is_object() || !entry.contains("name") || !entry["name"].is_string()) {
+    throw InputError(fmt::format("{}: phases[{}].name: missing; a text is wanted", file.string(), index));
+  }
+  PhaseSpan phase{entry["name"].get<std::string>(), number("start_s"), number("end_s")};
+  if (!(phase.start <= phase.end)) {
+    throw InputError(fmt::format("{}: phases[{}]: it ends ({} s) before it starts ({} s)", file.string(),
+                                 index, phase.end, phase.start));
+  }
+  return phase;
+}
+
+void read_info(RunFolder& run) {
+  const fs::path file = run.path / "run.json";
+  const auto info = read_json(file);
+  const auto text = [&](const char* key) {
+    const auto at = info.find(key);
+    return at != info.end() && at->is_string() ? at->get<std::string>() : std::string();
+  };
+  const auto number = [&](const char* key) -> std::optional<double> {
+    const auto at = info.find(key);
+    if (at == info.end() || !at->is_number()) return std::nullopt;
+    return at->get<double>();
+  };
+  run.title = text("title");
+  run.exit_reason = text("exit_reason");
+  run.grains_inserted = number("grains_inserted");
+  run.grains_lost = number("grains_lost");
+  if (!info.is_object() || !info.contains("phases") || !info["phases"].is_array()) {
+    throw InputError(
+        fmt::format("{}: phases: missing; a list of {{name, start_s, end_s}} is wanted", file.string()));
+  }
+  for (const auto& entry : info["phases"]) run.phases.push_back(phase_from(file, entry, run.phases.size()));
+}
+
+FieldRecord read_field(const fs::path& fields, const std::string& name) {
+  FieldRecord record{name, read_table(fields / (name + ".csv"), {{"phase"}, true}), {}};
+  const auto& frames = record.numbers.numbers("frame");
+  const auto& times = record.numbers.numbers("time_s");
+  const auto& phases = record.numbers.texts("phase");
+  for (std::size_t row = 0; row < record.numbers.rows(); ++row) {
+    if (!(frames[row] >= 0) || !std::isfinite(times[row])) {
+      throw InputError(fmt::format("{}: row {}: frame and time_s must be numbers",
+                                   (fields / (name + ".csv")).string(), row + 1));
+    }
+    const std::string stem = fmt::format("{}_{:06}", name, static_cast<long long>(frames[row]));
+    record.moments.push_back({row, times[row], phases[row], fields / stem, fields / (stem + ".vdb")});
+  }
+  std::stable_sort(record.moments.begin(), record.moments.end(),
+                   [](const FieldMoment& a, const FieldMoment& b) { return a.time < b.time; });
+  return record;
+}
+
+}  // namespace
+
+const PhaseSpan* RunFolder::phase(std::string_view name) const {
+  const auto at =
+      std::find_if(phases.begin(), phases.end(), [&](const PhaseSpan& p) { return p.name == name; });
+  return at == phases.end() ? nullptr : &*at;
+}
+
+const FieldRecord* RunFolder::field(std::string_view name) const {
+  const auto at =
+      std::find_if(fields.begin(), fields.end(), [&](const FieldRecord& f) { return f.name == name; });
+  return at == fields.end() ? nullptr : &*at;
+}
+
+std::vector<std::string> RunFolder::watched_walls() const {
+  constexpr std::string_view suffix = "_normal_force_N";
+  std::vector<std::string> walls;
+  for (const auto& column : series.columns()) {
+    if (column.name.ends_with(suffix))
+      walls.push_back(column.name.substr(0, column.name.size() - suffix.size()));
+  }
+  return walls;
+}
+
+RunFolder read_run_folder(const fs::path& path) {
+  std::error_code ignored;
+  if (!fs::is_directory(path, ignored)) {
+    throw InputError(
+        fmt::format("{}: no such folder; give a folder that `interstice run` wrote", path.string()));
+  }
+  RunFolder run;
+  run.path = path;
+  read_info(run);
+  run.series = read_table(path / "series.csv", {{}, true});
+  run.series.numbers("time_s");
+  for (const auto& name : tables_in(path / "fields")) run.fields.push_back(read_field(path / "fields", name));
+  return run;
+}
+
+std::vector<std::string> tables_in(const fs::path& folder) {
+  std::vector<std::string> names;
+  std::error_code ignored;
+  if (!fs::is_directory(folder, ignored)) return names;
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    if (entry.is_regular_file() && entry.path().extension() == ".csv")
+      names.push_back(entry.path().stem().string());
+  }
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+}  // namespace interstice::studies

@@ -1,0 +1,54 @@
+// A folder that `interstice run` wrote, as far as comparing it needs.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "coupling/studies/table.h"
+
+namespace interstice::studies {
+
+struct PhaseSpan {
+  std::string name;
+  double start = 0, end = 0;  // [s]
+};
+
+/// One moment of a field.
+struct FieldMoment {
+  std::size_t row = 0;  // in FieldRecord::numbers
+  double time = 0;      // [s]
+  std::string phase;
+  std::filesystem::path folder;  // fields/NAME_000012: slices, lines, profiles
+  std::filesystem::path vdb;     // fields/NAME_000012.vdb
+};
+
+struct FieldRecord {
+  std::string name;
+  Table numbers;                     // fields/NAME.csv
+  std::vector<FieldMoment> moments;  // one per row, in order of time
+};
+
+struct RunFolder {
+  std::filesystem::path path;
+  std::string title;
+  std::string exit_reason;
+  std::vector<PhaseSpan> phases;
+  std::optional<double> grains_inserted, grains_lost;
+  Table series;
+  std::vector<FieldRecord> fields;
+
+  const PhaseSpan* phase(std::string_view name) const;
+  const FieldRecord* field(std::string_view name) const;
+  /// Names of the watched walls: those of columns NAME_normal_force_N.
+  std::vector<std::string> watched_walls() const;
+};
+
+/// Throws InputError naming the file that is missing or wrong.
+RunFolder read_run_folder(const std::filesystem::path& path);
+
+/// The CSV files of a folder, by name without extension and in order; none where there is no such folder.
+std::vector<std::string> tables_in(const std::filesystem::path& folder);
+
+}  // namespace interstice::studies
