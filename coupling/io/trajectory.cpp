@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "coupling/io/atomic_file.h"
+#include "coupling/io/chunked_column.h"
 #include "coupling/io/guarded_file.h"
 #include "coupling/io/hdf5_handles.h"
 #include "coupling/io/rollback_file_driver.h"
@@ -45,7 +46,7 @@ void check_lengths(const fs::path& path, const ParticleFrame& frame) {
 Hdf5Handle column_properties(hsize_t elements) {
   Hdf5Handle properties(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, "describing a column");
   if (elements == 0) return properties;
-  const hsize_t chunk = std::min(elements, kChunk);
+  const hsize_t chunk = std::min(elements, kColumnChunk);
   checked(H5Pset_chunk(properties, 1, &chunk), "describing a column");
   checked(H5Pset_shuffle(properties), "describing a column");
   checked(H5Pset_deflate(properties, kDeflateLevel), "describing a column");
@@ -78,6 +79,8 @@ void write_columns(hid_t group, const ParticleFrame& frame, const Columns& colum
 void write_header(hid_t group, const ParticleFrame& frame) {
   write_attribute(group, "TimeValue", H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, &frame.time, 1);
   write_attribute(group, "step", H5T_STD_I64LE, H5T_NATIVE_INT64, &frame.step, 1);
+  const std::int64_t checksum = layout::checksum(frame);
+  write_attribute(group, "checksum", H5T_STD_I64LE, H5T_NATIVE_INT64, &checksum, 1);
   std::array<std::int32_t, 3> periodic{};
   std::copy(frame.periodic.begin(), frame.periodic.end(), periodic.begin());
   write_attribute(group, "periodic", H5T_STD_I32LE, H5T_NATIVE_INT32, periodic.data(), 3);
@@ -88,16 +91,6 @@ void write_header(hid_t group, const ParticleFrame& frame) {
   write_attribute(group, "bounds", H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, bounds.data(), 6);
 }
 
-struct WallRow {
-  const char* kind;
-  std::array<double, layout::kWallValues> values;
-};
-
-WallRow row_of(const Plane& p) {
-  return {"plane", {p.point.x, p.point.y, p.point.z, p.normal.x, p.normal.y, p.normal.z}};
-}
-WallRow row_of(const Box& b) { return {"box", {b.lo.x, b.lo.y, b.lo.z, b.hi.x, b.hi.y, b.hi.z}}; }
-
 void write_walls(hid_t group, const std::string& name, const std::vector<WallPose>& walls) {
   if (walls.empty()) return;
   std::size_t name_bytes = 1;
@@ -107,7 +100,7 @@ void write_walls(hid_t group, const std::string& name, const std::vector<WallPos
   std::vector<char> table(row_bytes * walls.size(), '\0');
   for (std::size_t i = 0; i < walls.size(); ++i) {
     char* row = table.data() + i * row_bytes;
-    const WallRow wall = std::visit([](const auto& shape) { return row_of(shape); }, walls[i].shape);
+    const layout::WallRow wall = layout::wall_row(walls[i].shape);
     std::memcpy(row, walls[i].name.data(), walls[i].name.size());
     std::memcpy(row + name_bytes, wall.kind, std::strlen(wall.kind));
     std::memcpy(row + name_bytes + layout::kWallKindBytes, wall.values.data(), sizeof wall.values);

@@ -49,20 +49,16 @@ inline std::string step_name(std::int64_t frame) { return "Step#" + std::to_stri
 /// One row of a wall table: "plane" (point, normal) or "box" (lo, hi); unused values are 0.
 inline constexpr std::size_t kWallKindBytes = 16;
 inline constexpr std::size_t kWallValues = 8;
+struct WallRow {
+  const char* kind;
+  std::array<double, kWallValues> values;
+};
+WallRow wall_row(const Shape& shape);
 
 /// The compound type of a row whose names take `name_bytes`: {name, kind, values[8]}.
-inline Hdf5Handle wall_type(std::size_t name_bytes) {
-  const Hdf5Handle name = text_type(name_bytes);
-  const Hdf5Handle kind = text_type(kWallKindBytes);
-  const hsize_t count = kWallValues;
-  const Hdf5Handle values(H5Tarray_create2(H5T_IEEE_F64LE, 1, &count), H5Tclose, "describing a wall");
-  const std::size_t name_size = H5Tget_size(name);
-  Hdf5Handle row(H5Tcreate(H5T_COMPOUND, name_size + kWallKindBytes + kWallValues * sizeof(double)), H5Tclose,
-                 "describing a wall");
-  checked(H5Tinsert(row, "name", 0, name), "describing a wall");
-  checked(H5Tinsert(row, "kind", name_size, kind), "describing a wall");
-  checked(H5Tinsert(row, "values", name_size + kWallKindBytes, values), "describing a wall");
-  return row;
-}
+Hdf5Handle wall_type(std::size_t name_bytes);
+
+/// Over every value of the frame; kept with it, because HDF5's oldest format guards only what is compressed.
+std::int64_t checksum(const ParticleFrame& frame);
 
 }  // namespace interstice::io::layout

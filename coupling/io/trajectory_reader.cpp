@@ -7,6 +7,7 @@
 #include <system_error>
 
 #include "base/error.h"
+#include "coupling/io/chunked_column.h"
 #include "coupling/io/guarded_file.h"
 #include "coupling/io/hdf5_handles.h"
 #include "coupling/io/rollback_file_driver.h"
@@ -78,19 +79,33 @@ std::vector<StoredFrame> list_frames(hid_t file) {
 
 /// The length of a 1-D dataset. Deflate shrinks at most 1032 times: a length beyond that is damage, not data,
 /// and must not become an allocation.
-std::size_t checked_length(hid_t dataset, std::size_t element_bytes) {
+std::size_t checked_length(hid_t dataset) {
   const Hdf5Handle space(H5Dget_space(dataset), H5Sclose, "reading a column's size");
+  const Hdf5Handle type(H5Dget_type(dataset), H5Tclose, "reading a column's type");
   if (H5Sget_simple_extent_ndims(space) != 1)
     throw Hdf5Error("reading a column failed: it is not one-dimensional");
   const hssize_t length = checked(H5Sget_simple_extent_npoints(space), "reading a column's size");
   const double stored = static_cast<double>(H5Dget_storage_size(dataset));
-  if (static_cast<double>(length) * static_cast<double>(element_bytes) > 1100.0 * stored + 65536.0)
+  if (static_cast<double>(length) * static_cast<double>(H5Tget_size(type)) > 1100.0 * stored + 65536.0)
     throw Hdf5Error("reading a column failed: its length does not fit its size in the file");
   return static_cast<std::size_t>(length);
 }
 
+void read_values(hid_t dataset, hid_t memory_type, std::size_t element_bytes, std::size_t elements, bool ours,
+                 void* values) {
+  const Hdf5Handle type(H5Dget_type(dataset), H5Tclose, "reading a column's type");
+  if (ours) {
+    if (H5Tequal(type, memory_type) <= 0)
+      throw Hdf5Error("reading a column failed: its type is not what was written");
+    return read_own_column(dataset, element_bytes, elements, values);
+  }
+  if (const H5T_class_t kind = H5Tget_class(type); kind != H5T_FLOAT && kind != H5T_INTEGER)
+    throw Hdf5Error("reading a column failed: it holds no numbers");
+  checked(H5Dread(dataset, memory_type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values), "reading a column");
+}
+
 template <class Columns>
-void read_columns(hid_t group, const Columns& columns, hid_t memory_type, ParticleFrame& frame) {
+void read_columns(hid_t group, const Columns& columns, hid_t memory_type, bool ours, ParticleFrame& frame) {
   for (const auto& column : columns) {
     if (!has_link(group, column.name)) {
       if (layout::required(column.name))
@@ -98,18 +113,20 @@ void read_columns(hid_t group, const Columns& columns, hid_t memory_type, Partic
       continue;
     }
     const Hdf5Handle dataset(H5Dopen2(group, column.name, H5P_DEFAULT), H5Dclose, "opening a column");
-    const Hdf5Handle type(H5Dget_type(dataset), H5Tclose, "reading a column's type");
-    if (const H5T_class_t kind = H5Tget_class(type); kind != H5T_FLOAT && kind != H5T_INTEGER)
-      throw Hdf5Error(std::string("reading a frame failed: column ") + column.name + " holds no numbers");
     auto& values = frame.*column.values;
-    values.resize(checked_length(dataset, H5Tget_size(type)));
-    if (values.size() != frame.size())
+    if (checked_length(dataset) != frame.size())
       throw Hdf5Error(std::string("reading a frame failed: column ") + column.name +
                       " has another length than x");
+    values.resize(frame.size());
     if (!values.empty())
-      checked(H5Dread(dataset, memory_type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()),
-              "reading a column");
+      read_values(dataset, memory_type, sizeof values[0], values.size(), ours, values.data());
   }
+}
+
+void verify(hid_t group, const ParticleFrame& frame) {
+  std::int64_t stored = -1;
+  if (!read_attribute(group, "checksum", H5T_NATIVE_INT64, &stored, 1) || stored != layout::checksum(frame))
+    throw Hdf5Error("reading a frame failed: its checksum is wrong");
 }
 
 void read_header(hid_t group, ParticleFrame& frame) {
@@ -142,7 +159,7 @@ std::vector<WallPose> read_walls(hid_t dataset) {
   const Hdf5Handle type = layout::wall_type(name_bytes);
   if (checked(H5Tequal(type, stored), "reading the walls' type") == 0)
     throw Hdf5Error("reading the walls failed: no wall table");
-  std::vector<char> table(row_bytes * checked_length(dataset, row_bytes));
+  std::vector<char> table(row_bytes * checked_length(dataset));
   checked(H5Dread(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, table.data()), "reading the walls");
   std::vector<WallPose> walls;
   for (const char* row = table.data(); row != table.data() + table.size(); row += row_bytes) {
@@ -160,6 +177,7 @@ struct TrajectoryReader::Impl {
   fs::path path;
   std::optional<GuardedFile> bytes;  // outlives `file`, which reads through it
   Hdf5Handle file;
+  bool ours = false;  // written by this program: then nothing may deviate from how it writes
   std::vector<StoredFrame> frames;
 
   const StoredFrame& at(std::int64_t frame) const {
@@ -182,8 +200,9 @@ TrajectoryReader::TrajectoryReader(const fs::path& path) : impl_(std::make_uniqu
     impl_->bytes.emplace(path, GuardedFile::Mode::read);
     impl_->file = Hdf5Handle(H5Fopen(path.c_str(), H5F_ACC_RDONLY, guarded_access(*impl_->bytes)), H5Fclose,
                              "opening the file");
+    impl_->ours = read_text_attribute(impl_->file, "format") == layout::kFormat;
     impl_->frames = list_frames(impl_->file);
-    if (impl_->frames.empty() && read_text_attribute(impl_->file, "format") != layout::kFormat)
+    if (impl_->frames.empty() && !impl_->ours)
       throw InputError(path.string() +
                        ": an HDF5 file without frames (groups Step#0, Step#1, ...); give a trajectory");
     impl_->bytes->unlock();
@@ -223,12 +242,13 @@ ParticleFrame TrajectoryReader::read(std::int64_t frame) const {
     const Hdf5Handle group = open_object(impl_->file, stored.group, H5I_GROUP);
     read_header(group, result);
     const Hdf5Handle x(H5Dopen2(group, "x", H5P_DEFAULT), H5Dclose, "opening column x");
-    result.x.resize(checked_length(x, sizeof(float)));
-    read_columns(group, layout::kReal, H5T_NATIVE_DOUBLE, result);
-    read_columns(group, layout::kLong, H5T_NATIVE_INT64, result);
-    read_columns(group, layout::kShort, H5T_NATIVE_INT32, result);
+    result.x.resize(checked_length(x));
+    read_columns(group, layout::kReal, H5T_NATIVE_DOUBLE, impl_->ours, result);
+    read_columns(group, layout::kLong, H5T_NATIVE_INT64, impl_->ours, result);
+    read_columns(group, layout::kShort, H5T_NATIVE_INT32, impl_->ours, result);
     if (stored.walls != HADDR_UNDEF)
       result.walls = read_walls(open_object(impl_->file, stored.walls, H5I_DATASET));
+    if (impl_->ours) verify(group, result);  // files of other programs have none
     return result;
   } catch (const Hdf5Error& error) {
     throw damaged(error.what());
