@@ -8,9 +8,22 @@
 #include <filesystem>
 #include <fstream>
 #include <sstream>
-// Header only, and in this file alone: what links this library then needs no library of toml++.
+
+namespace interstice::scene {
+/// What an assertion within toml++ turns into, see below.
+struct ParserAssertion {};
+[[noreturn]] inline void parser_asserts() { throw ParserAssertion(); }
+}  // namespace interstice::scene
+
+// Header only, and in this file alone: what links this library then needs no library of toml++. Version 3.3
+// asserts where it should report (a header such as "[,]"), and in release builds assumes that it cannot
+// happen; a file that a person wrote must do neither, so in this file assertions are always on and throw.
+#pragma push_macro("NDEBUG")
+#undef NDEBUG
+#define TOML_ASSERT(condition) ((condition) ? void() : interstice::scene::parser_asserts())
 #define TOML_ENABLE_FORMATTERS 0
 #include <toml++/toml.h>
+#pragma pop_macro("NDEBUG")
 
 #include "base/error.h"
 
@@ -61,6 +74,28 @@ std::string one_line(std::string_view text) {
   return line;
 }
 
+bool asserts(std::string_view text) {
+  try {
+    static_cast<void>(toml::parse(text));
+  } catch (const ParserAssertion&) {
+    return true;
+  } catch (const toml::parse_error&) {
+  }
+  return false;
+}
+
+/// The line on which the parser asserts: no shorter beginning of the text makes it do so, so halving finds
+/// it.
+int asserting_line(std::string_view text) {
+  std::vector<std::size_t> ends;  // of the lines
+  for (std::size_t i = 0; i < text.size(); ++i)
+    if (text[i] == '\n') ends.push_back(i + 1);
+  ends.push_back(text.size());
+  const auto line = std::partition_point(ends.begin(), ends.end(),
+                                         [&](std::size_t end) { return !asserts(text.substr(0, end)); });
+  return static_cast<int>(line - ends.begin()) + 1;
+}
+
 void replace_places(Value& value, const Place& place) {
   value.place = place;
   for (Value& item : value.items) replace_places(item, place);
@@ -108,6 +143,10 @@ Value parse_document(std::string_view text, const std::string& source) {
   } catch (const toml::parse_error& error) {
     throw InputError(fmt::format("{}: not valid TOML: {}; see https://toml.io; correct this place",
                                  text_of(place_of(error.source(), name)), one_line(error.description())));
+  } catch (const ParserAssertion&) {
+    throw InputError(
+        fmt::format("{}: not valid TOML: a name is due after '['; see https://toml.io; correct this place",
+                    text_of(Place{name, asserting_line(text), 1})));
   }
 }
 

@@ -326,6 +326,16 @@ TEST(SceneErrors, NoPhasesNoDomainNothing) {
       std::string::npos);
 }
 
+TEST(SceneErrors, ATableHeaderWithoutAName) {  // toml++ 3.3 asserts on these
+  for (const std::string header : {"[,]", "[=]", "[[,]]", "[ [a] ]", "[]", "[[]]", "[.a]", "[a.]", "[\"]"}) {
+    const std::string text = replaced(kExampleScene, "[output]", header);
+    const auto errors = errors_of(text);
+    ASSERT_EQ(errors.size(), 1u) << header;
+    EXPECT_EQ(errors[0].rfind(fmt::format("x.toml:{}:", line_of(text, "trajectory") - 1), 0), 0u)
+        << errors[0];
+  }
+}
+
 TEST(SceneErrors, FilesThatCannotBeRead) {
   for (const std::string& path : {std::string("/no/such/scene.toml"), std::string("/")}) {
     try {

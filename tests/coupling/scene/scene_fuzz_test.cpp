@@ -53,7 +53,11 @@ class Damage {
                                         ",",
                                         "#",
                                         "-0",
-                                        "\"\""};
+                                        "\"\"",
+                                        "[,]",
+                                        "\n[",
+                                        "\n=",
+                                        "\n."};
     for (std::size_t edits = 1 + below(4); edits > 0; --edits) {
       const std::size_t at = below(text.size() + 1);
       const std::size_t length = std::min(text.size() - at, 1 + below(12));
