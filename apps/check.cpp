@@ -109,9 +109,8 @@ void check(const CheckArguments& a) {
   std::vector<std::string> warnings;
   const scene::Scene scene = scene::read_scene(a.scene, a.overrides, &warnings);
   const stream::StepChoice choice = stream::choose_step(scene, stream::build_model(scene));
-  for (const auto* list : {&warnings, &choice.warnings}) {
-    for (const std::string& w : *list) fmt::print(stderr, "warning: {}\n", w);
-  }
+  warnings.insert(warnings.end(), choice.warnings.begin(), choice.warnings.end());
+  for (const std::string& w : warnings) fmt::print(stderr, "warning: {}\n", w);
   const Estimate e = estimate(scene, choice.step);
   if (a.json) {
     fmt::print("{}\n", as_json(scene, choice, e).dump(2));

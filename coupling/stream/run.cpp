@@ -214,7 +214,7 @@ void Run::fill(io::ParticleFrame& frame) const {
 
 void Run::record(bool phase_end) {
   const std::int64_t step = sim_.step();
-  if (series_ && series_every_.due(step)) series_->sample(sim_, phase().name);
+  if (series_ && series_every_.due(step)) series_->sample(sim_);
   std::vector<Snapshot::Due> due;
   for (std::size_t f = 0; f < scene_.fields.size(); ++f) {
     if (phase_end || field_every_[f].due(step)) due.push_back({f, state_.field_frames[f]++});

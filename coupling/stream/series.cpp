@@ -17,7 +17,7 @@ std::vector<std::size_t> watched_walls(const scene::Scene& scene) {
 
 std::string header_of(const scene::Scene& scene) {
   std::string line =
-      "time_s,phase,particles,particles_lost,kinetic_energy_J,contacts,coordination_mean,contact_force_mean_"
+      "time_s,particles,particles_lost,kinetic_energy_J,contacts,coordination_mean,contact_force_mean_"
       "N,"
       "contact_force_max_N,contact_normal_force_mean_N";
   for (const std::size_t w : watched_walls(scene)) {
@@ -34,14 +34,14 @@ std::string header_of(const scene::Scene& scene) {
 Series::Series(const std::filesystem::path& path, const scene::Scene& scene, std::optional<double> keep_until)
     : watched_(watched_walls(scene)), table_(path, header_of(scene), keep_until) {}
 
-void Series::sample(const dem::Simulation& sim, const std::string& phase) {
+void Series::sample(const dem::Simulation& sim) {
   const dem::ContactStatistics c = dem::contact_statistics(sim);
   const dem::MotionStatistics m = dem::motion_statistics(sim);
   const double coordination =
       sim.grains() == 0 ? 0 : 2 * static_cast<double>(c.contacts) / static_cast<double>(sim.grains());
   std::string line =
-      fmt::format("{},{},{},{},{},{},{},{},{},{}", sim.time(), phase, sim.grains(), sim.grains_lost(),
-                  m.kinetic_energy, c.contacts, coordination, c.force_mean, c.force_max, c.normal_force_mean);
+      fmt::format("{},{},{},{},{},{},{},{},{}", sim.time(), sim.grains(), sim.grains_lost(), m.kinetic_energy,
+                  c.contacts, coordination, c.force_mean, c.force_max, c.normal_force_mean);
   for (const std::size_t w : watched_) {
     const dem::WallStatistics s = dem::wall_statistics(sim, w);
     line += fmt::format(",{},{},{},{},{},{},{}", s.normal_force, s.shear_force, s.shear_force_sum, s.contacts,

@@ -18,7 +18,7 @@ class Series {
   Series(const std::filesystem::path& path, const scene::Scene& scene, std::optional<double> keep_until);
 
   /// Appends the present numbers. Throws RunError when the row cannot be written.
-  void sample(const dem::Simulation& simulation, const std::string& phase);
+  void sample(const dem::Simulation& simulation);
 
  private:
   std::vector<std::size_t> watched_;  // walls

@@ -1,0 +1,189 @@
+// interstice bench: how fast the engine and the fields are on this machine, on beds that anyone can make
+// again.
+#include <fmt/format.h>
+#include <tbb/info.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "apps/command.h"
+#include "base/error.h"
+#include "base/version.h"
+#include "coupling/io/particle_reader.h"
+#include "dem/simulation.h"
+#include "dem/statistics.h"
+#include "dem/time_step.h"
+#include "voxel/field.h"
+
+namespace interstice::apps {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct BenchArguments {
+  std::string bed;
+  int tiles_x = 1, tiles_y = 1;
+  int blocks = 5, steps = 100;
+  double voxel = 17.3e-6;
+  bool no_cohesion = false;
+  ComputeOptions compute;
+};
+
+/// A bed, and the box that it fills: [0, size) in x and y, the floor at z = 0.
+struct Bed {
+  std::vector<dem::NewGrain> grains;
+  Vec3d size;
+};
+
+/// Copies a bed side by side. Its own box must be periodic (or its bounds are taken, and the seams show).
+Bed read_bed(const BenchArguments& a) {
+  const auto reader = io::open_particles(a.bed, {});
+  io::ParticleFrame frame, next;
+  while (reader->next(next)) std::swap(frame, next);
+  if (frame.size() == 0) throw InputError(a.bed + ": holds no particles; give a file with a settled bed");
+  Box box{{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
+  for (std::size_t i = 0; i < frame.size(); ++i) {
+    const Vec3d p{frame.x[i], frame.y[i], frame.z[i]};
+    for (int axis = 0; axis < 3; ++axis) {
+      box.lo[axis] = std::min(box.lo[axis], p[axis] - frame.radius[i]);
+      box.hi[axis] = std::max(box.hi[axis], p[axis] + frame.radius[i]);
+    }
+  }
+  if (frame.bounds) {
+    box.lo.x = frame.bounds->lo.x, box.lo.y = frame.bounds->lo.y;
+    box.hi.x = frame.bounds->hi.x, box.hi.y = frame.bounds->hi.y;
+    box.lo.z = 0;
+  }
+  Bed bed;
+  const Vec3d cell = box.size();
+  for (int ty = 0; ty < a.tiles_y; ++ty) {
+    for (int tx = 0; tx < a.tiles_x; ++tx) {
+      for (std::size_t i = 0; i < frame.size(); ++i) {
+        dem::NewGrain g;
+        g.position = Vec3d{frame.x[i], frame.y[i], frame.z[i]} - box.lo + Vec3d{tx * cell.x, ty * cell.y, 0};
+        g.radius = frame.radius[i];
+        bed.grains.push_back(g);
+      }
+    }
+  }
+  bed.size = {a.tiles_x * cell.x, a.tiles_y * cell.y, cell.z};
+  return bed;
+}
+
+/// Paper 004's powder on a floor; periodic sides where the bed is tiled, walls where it is not.
+dem::Model model_of(const Bed& bed, const BenchArguments& a) {
+  dem::Model m;
+  m.domain = {{0, 0, -1e-3}, {bed.size.x, bed.size.y, bed.size.z + 5e-3}};
+  m.materials = {{8200, 1e9, 0.3}, {8200, 1e9, 0.3}};
+  const dem::PairCoefficients powder{0.35, 0.3, 0.005, 1e6}, wall{0.35, 0.9, 0.005, 1e6};
+  m.pairs = {powder, wall, wall, powder};
+  m.features = {true, true, !a.no_cohesion, false};
+  m.walls = {{Plane{{0, 0, 0}, {0, 0, 1}}, 1}};
+  if (a.tiles_x * a.tiles_y > 1) {
+    m.boundary = {dem::AxisBoundary::periodic, dem::AxisBoundary::periodic, dem::AxisBoundary::open};
+  } else {
+    for (int axis = 0; axis < 2; ++axis) {
+      Vec3d inward{0, 0, 0};
+      inward[axis] = 1;
+      m.walls.push_back({Plane{{0, 0, 0}, inward}, 1});
+      m.walls.push_back({Plane{bed.size, -inward}, 1});
+    }
+    m.domain.lo.x = m.domain.lo.y = -1e-3;
+    m.domain.hi.x += 1e-3, m.domain.hi.y += 1e-3;
+  }
+  return m;
+}
+
+Json spread(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  return {{"median", values[values.size() / 2]}, {"min", values.front()}, {"max", values.back()}};
+}
+
+Json bench_steps(const Bed& bed, const BenchArguments& a) {
+  double smallest = INFINITY;
+  for (const dem::NewGrain& g : bed.grains) smallest = std::min(smallest, g.radius);
+  const dem::Model model = model_of(bed, a);
+  dem::Simulation sim(model, 0.2 * dem::rayleigh_time(smallest, model.materials[0]),
+                      {a.compute.backend == "reference", 0});
+  sim.add_grains(bed.grains);
+  sim.advance(20);
+  std::vector<double> rates;
+  for (int b = 0; b < a.blocks; ++b) {
+    const auto start = std::chrono::steady_clock::now();
+    sim.advance(a.steps);
+    const double s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    rates.push_back(static_cast<double>(sim.grains()) * a.steps / s);
+  }
+  const dem::ContactStatistics c = dem::contact_statistics(sim);
+  Json j;
+  j["grains"] = sim.grains();
+  j["time_step_s"] = sim.time_step();
+  j["cohesion"] = model.features.cohesion;
+  j["coordination"] = 2.0 * static_cast<double>(c.contacts) / static_cast<double>(sim.grains());
+  j["listed_pairs_per_grain"] =
+      static_cast<double>(sim.pair_contacts().pairs.size()) / static_cast<double>(sim.grains());
+  j["list_rebuilds"] = sim.rebuilds();
+  j["particle_steps_per_s"] = spread(rates);
+  return j;
+}
+
+Json bench_field(const Bed& bed, const BenchArguments& a) {
+  std::vector<double> x, y, z, r;
+  for (const dem::NewGrain& g : bed.grains) {
+    x.push_back(g.position.x), y.push_back(g.position.y), z.push_back(g.position.z), r.push_back(g.radius);
+  }
+  voxel::FieldRequest request;
+  request.lattice = voxel::cubic_lattice({{0, 0, 0}, bed.size}, a.voxel);
+  std::vector<double> rates;
+  double conservation = 0;
+  for (int b = 0; b < a.blocks; ++b) {
+    const auto start = std::chrono::steady_clock::now();
+    const voxel::Field f =
+        voxel::compute_field({x.size(), x.data(), y.data(), z.data(), r.data(), nullptr}, {}, request);
+    rates.push_back(static_cast<double>(x.size()) /
+                    std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+    conservation = std::fabs(f.sums.solid_volume_field / f.sums.solid_volume_particles - 1);
+  }
+  return {
+      {"voxel_m", a.voxel}, {"relative_conservation_error", conservation}, {"spheres_per_s", spread(rates)}};
+}
+
+void bench(const BenchArguments& a) {
+  apply_compute_options(a.compute);
+  if (a.blocks < 1 || a.steps < 1 || a.tiles_x < 1 || a.tiles_y < 1) {
+    throw InputError("bench: --blocks, --steps and --tiles must be at least 1; leave them out for the usual");
+  }
+  const Bed bed = read_bed(a);
+  Json j;
+  j["version"] = kVersion;
+  j["commit"] = kCommit;
+  j["built_for"] = kBuildArch;
+  j["threads"] = a.compute.backend == "reference" ? 1
+                 : a.compute.threads > 0          ? a.compute.threads
+                                                  : tbb::info::default_concurrency();
+  j["bed"] = a.bed;
+  j["steps"] = bench_steps(bed, a);
+  j["field"] = bench_field(bed, a);
+  fmt::print("{}\n", j.dump(2));
+}
+
+}  // namespace
+
+void add_bench(CLI::App& root) {
+  auto a = std::make_shared<BenchArguments>();
+  CLI::App* c = root.add_subcommand("bench", "time steps and fields on a settled bed; prints JSON");
+  c->add_option("--bed", a->bed,
+                "particle file with the bed (default: the cell of a settled bed, tiled to 35,000)");
+  c->add_option("--tiles-x", a->tiles_x, "copies of the bed along x (its box is then periodic)");
+  c->add_option("--tiles-y", a->tiles_y, "copies along y");
+  c->add_option("--blocks", a->blocks, "timed blocks");
+  c->add_option("--steps", a->steps, "steps in a block");
+  c->add_flag("--no-cohesion", a->no_cohesion, "without SJKR");
+  add_compute_options(*c, a->compute);
+  c->callback([a] { bench(*a); });
+}
+
+}  // namespace interstice::apps
