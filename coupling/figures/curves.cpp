@@ -179,7 +179,7 @@ std::string panel_of(const std::vector<CurveFigure>& panels, std::size_t p, cons
 
   std::string commands = place(layout.canvas, frame);
   commands += fmt::format("set yrange [{:.9g}:{:.9g}]; set ytics {:g}\n", y.lo, y.hi,
-                          tick_step(y.hi - y.lo, std::max(2, static_cast<int>(frame.height / 60))));
+                          tick_step(y.hi - y.lo, std::max(2, static_cast<int>(frame.height / 45))));
   commands +=
       fmt::format("set ylabel {} offset -1\n", string_literal(wrapped(panel.y_label, 15, frame.height)));
   commands += last ? fmt::format("set format x '%g'; set xlabel {}\n", string_literal(x_label))

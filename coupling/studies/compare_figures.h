@@ -19,6 +19,19 @@ struct NamedFigure {
 
 using Labels = std::array<std::string, 2>;
 
+/// Where time zero of the figures lies in each run: at the start of a phase that both have where the runs
+/// came to it at different times, else at the runs' own zero.
+struct TimeZero {
+  double a = 0, b = 0;  // [s]
+  std::string phase;    // empty: not shifted
+  std::string label() const;
+};
+TimeZero time_zero(const RunFolder& a, const RunFolder& b);
+
+/// Ends of phases: one mark where the runs agree, else one each that says whose it is.
+std::vector<figures::CurveFigure::Mark> phase_marks(const RunFolder& a, const RunFolder& b,
+                                                    const Labels& labels, const TimeZero& zero);
+
 /// Forces, stresses and the bed's state over time, with the ends of phases.
 std::vector<NamedFigure> series_figures(const RunFolder& a, const RunFolder& b, const Labels& labels);
 

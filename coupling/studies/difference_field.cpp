@@ -1,7 +1,7 @@
 #include "coupling/studies/difference_field.h"
 
-#include <openvdb/openvdb.h>
 #include <fmt/format.h>
+#include <openvdb/openvdb.h>
 
 #include <cmath>
 

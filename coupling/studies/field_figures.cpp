@@ -216,7 +216,7 @@ void add_profiles(std::vector<NamedFigure>& all, const Moment& m) {
   }
 }
 
-/// The layer's numbers from frame to frame, against the frames' own times.
+/// The layer's numbers from frame to frame.
 void add_history(std::vector<NamedFigure>& all, const RunFolder& a, const RunFolder& b, const Labels& labels,
                  const std::string& field) {
   const std::pair<const char*, const char*> numbers[] = {
@@ -224,27 +224,30 @@ void add_history(std::vector<NamedFigure>& all, const RunFolder& a, const RunFol
       {"solid_fraction_sd", "its sd over columns"},
       {"solid_fraction_below_surface", "solid fraction below surface"},
       {"void_fraction_mean", "mean void fraction"}};
+  const TimeZero zero = time_zero(a, b);
   std::vector<figures::CurveFigure> panels;
   std::size_t longest = 0;
   for (const auto& [column, label] : numbers) {
     figures::CurveFigure panel;
     panel.y_label = label;
-    for (const auto& [run, name] : {std::pair{&a, labels[0]}, std::pair{&b, labels[1]}}) {
+    for (const RunFolder* run : {&a, &b}) {
+      const std::size_t r = run == &a ? 0 : 1;
       const FieldRecord* record = run->field(field);
       if (record == nullptr || !record->numbers.has(column)) continue;
-      figures::Curve curve{name, {}, {}};
+      figures::Curve curve{labels[r], {}, {}};
       for (const auto& moment : record->moments) {
-        curve.x.push_back(1e3 * moment.time);
+        curve.x.push_back(1e3 * (moment.time - (r == 0 ? zero.a : zero.b)));
         curve.y.push_back(record->numbers.numbers(column)[moment.row]);
       }
       longest = std::max(longest, curve.x.size());
       panel.curves.push_back(std::move(curve));
     }
+    panel.marks = phase_marks(a, b, labels, zero);
     if (!panel.curves.empty()) panels.push_back(std::move(panel));
   }
   if (longest < 2) return;
   panels.front().title = fmt::format("Field '{}' over time", field);
-  panels.back().x_label = "time [ms]";
+  panels.back().x_label = zero.label();
   all.push_back({field + "_over_time", std::move(panels)});
 }
 

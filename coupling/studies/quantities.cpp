@@ -104,11 +104,18 @@ void add_over_phase(std::vector<Quantity>& rows, const Runs& runs, const std::st
 
 void add_wall(std::vector<Quantity>& rows, const Runs& runs, const std::string& phase,
               const std::string& wall) {
-  for (const char* kind : {"normal", "shear"}) {
-    const std::string total = fmt::format("{}_{}_force_N", wall, kind);
+  struct Kind {
+    const char *name, *column, *phrase;
+  };
+  // Shear forces of many grains partly cancel: the force on the wall is the magnitude of their vector sum,
+  // what the grains rub with is the sum of their magnitudes.
+  for (const Kind& kind : {Kind{"normal", "normal_force_N", "normal force"},
+                           Kind{"shear", "shear_force_N", "shear force (vector sum)"},
+                           Kind{"shear_sum", "shear_force_sum_N", "shear forces (sum of magnitudes)"}}) {
+    const std::string total = wall + "_" + kind.column;
     const auto row = [&](const char* suffix, const OfRun& values, const char* what) {
-      add_over_phase(rows, runs, phase, fmt::format("{}/{}_{}", wall, kind, suffix), values,
-                     fmt::format("{} force on {}, {}; mean over the phase", kind, wall, what));
+      add_over_phase(rows, runs, phase, fmt::format("{}/{}_{}", wall, kind.name, suffix), values,
+                     fmt::format("{} on {}, {}; mean over the phase", kind.phrase, wall, what));
     };
     row("force_N", column(total), "total");
     row("force_per_contact_N", column_per(total, wall + "_contacts"), "total per contact");

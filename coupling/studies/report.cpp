@@ -2,9 +2,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 
 #include "coupling/studies/compare_runs.h"
+#include "coupling/studies/moment_files.h"
 
 namespace interstice::studies {
 namespace {
@@ -68,23 +70,32 @@ std::vector<std::string> parts_of(const std::string& name) {
   return parts;
 }
 
-/// A bullet for the quantity under its heading (phase or moment); empty where it is not worth one.
-std::string sentence(const Quantity& q, const Labels& labels, std::string& heading) {
+/// A bullet, and the heading it belongs under; no text for what is not worth a sentence.
+struct Sentence {
+  std::string heading, text;
+};
+
+/// MOMENT/FIELD/lines/LINE/NUMBER and MOMENT/FIELD/NUMBER are of fields, PHASE/WALL/NUMBER of walls,
+/// PHASE/NUMBER of the bed. Lines are told at the end only: comparison.csv has the rest.
+Sentence sentence(const Quantity& q, const Labels& labels) {
   const auto parts = parts_of(q.name);
-  if (parts.size() < 2) return "";
-  for (const auto& [ending, phrase] : told) {
-    if (parts.back() != ending) continue;
-    heading = parts.front();
-    std::string what = phrase;
-    if (const auto gap = what.find("{}"); gap != std::string::npos) what.replace(gap, 2, parts[1]);
-    // MOMENT/FIELD/lines/LINE/NUMBER and MOMENT/FIELD/NUMBER are of fields, PHASE/WALL/NUMBER of walls.
-    const bool line = parts.size() == 5 && parts[2] == "lines";
-    const bool of_wall = what != phrase;
-    std::string where = line ? fmt::format(" on line {}", parts[3]) : "";
-    if (line || (parts.size() == 3 && !of_wall)) where += fmt::format(" (field '{}')", parts[1]);
-    return fmt::format("- {}{}: {}.\n", what, where, values(q, labels));
-  }
-  return "";
+  if (parts.size() < 2) return {};
+  const auto at =
+      std::find_if(std::begin(told), std::end(told), [&](const auto& t) { return parts.back() == t.first; });
+  if (at == std::end(told)) return {};
+  std::string what = at->second;
+  const bool line = parts.size() == 5 && parts[2] == "lines";
+  const auto gap = what.find("{}");
+  if (gap != std::string::npos) what.replace(gap, 2, parts[1]);
+  const bool of_field = line || (parts.size() == 3 && gap == std::string::npos);
+  if (line && parts[0] != "end") return {};
+  Sentence result;
+  result.heading = !of_field           ? fmt::format("During {}", parts[0])
+                   : parts[0] == "end" ? fmt::format("Field '{}' at the end", parts[1])
+                                       : fmt::format("Field '{}' after {}", parts[1], parts[0]);
+  what[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(what[0])));
+  result.text = fmt::format("- {}{}: {}.\n", what, line ? " " + spoken(parts[3]) : "", values(q, labels));
+  return result;
 }
 
 }  // namespace
@@ -99,8 +110,7 @@ std::string report(const Comparison& comparison) {
   }
   std::string last;
   for (const auto& q : comparison.quantities) {
-    std::string heading;
-    const std::string line = sentence(q, labels, heading);
+    const auto [heading, line] = sentence(q, labels);
     if (line.empty()) continue;
     if (heading != last) text += fmt::format("\n## {}\n\n", heading);
     last = heading;

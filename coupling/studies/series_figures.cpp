@@ -8,22 +8,6 @@
 namespace interstice::studies {
 namespace {
 
-/// Where time zero of the figures lies in each run: at the start of a phase that both have where the runs
-/// came to it at different times, else at the runs' own zero.
-struct TimeZero {
-  double a = 0, b = 0;  // [s]
-  std::string phase;    // empty: not shifted
-};
-
-TimeZero time_zero(const RunFolder& a, const RunFolder& b) {
-  for (const auto& phase : a.phases) {
-    const PhaseSpan* other = b.phase(phase.name);
-    if (other == nullptr || phase.start == other->start) continue;
-    return {phase.start, other->start, phase.name};
-  }
-  return {};
-}
-
 struct Series {
   const RunFolder &a, &b;
   const Labels& labels;
@@ -34,29 +18,6 @@ std::vector<double> milliseconds(const RunFolder& run, double zero) {
   std::vector<double> times = run.series.numbers("time_s");
   for (double& t : times) t = 1e3 * (t - zero);
   return times;
-}
-
-/// Ends of phases: one line where the runs agree, else one each that says whose it is.
-std::vector<figures::CurveFigure::Mark> marks(const Series& s) {
-  std::vector<figures::CurveFigure::Mark> result;
-  const auto end_of = [](const PhaseSpan& p, double zero) { return 1e3 * (p.end - zero); };
-  for (const auto& phase : s.a.phases) {
-    const PhaseSpan* other = s.b.phase(phase.name);
-    const double at = end_of(phase, s.zero.a);
-    const bool same =
-        other != nullptr && std::abs(at - end_of(*other, s.zero.b)) < 1e-3 * std::max(1.0, std::abs(at));
-    result.push_back(
-        {at, same ? "end of " + phase.name : fmt::format("end of {} ({})", phase.name, s.labels[0])});
-    if (other != nullptr && !same) {
-      result.push_back({end_of(*other, s.zero.b), fmt::format("end of {} ({})", phase.name, s.labels[1])});
-    }
-  }
-  for (const auto& phase : s.b.phases) {
-    if (s.a.phase(phase.name) != nullptr) continue;
-    result.push_back({end_of(phase, s.zero.b), fmt::format("end of {} ({})", phase.name, s.labels[1])});
-  }
-  std::sort(result.begin(), result.end(), [](const auto& p, const auto& q) { return p.x < q.x; });
-  return result;
 }
 
 /// The unit that brings the largest value between 1 and 1000: "nN", "kPa", ...
@@ -108,7 +69,7 @@ figures::CurveFigure panel(const Series& s, const PanelRequest& request) {
     for (double& y : curve.y) y *= scale.factor;
   }
   figure.y_label = request.label + (scale.unit.empty() ? "" : " [" + scale.unit + "]");
-  figure.marks = marks(s);
+  figure.marks = phase_marks(s.a, s.b, s.labels, s.zero);
   return figure;
 }
 
@@ -122,13 +83,48 @@ void add_figure(std::vector<NamedFigure>& all, const Series& s, const std::strin
   }
   if (panels.empty()) return;
   panels.front().title = title;
-  panels.back().x_label =
-      s.zero.phase.empty() ? "time [ms]" : fmt::format("time since the start of {} [ms]", s.zero.phase);
+  panels.back().x_label = s.zero.label();
   panels.back().note = note;
   all.push_back({name, std::move(panels)});
 }
 
 }  // namespace
+
+std::string TimeZero::label() const {
+  return phase.empty() ? "time [ms]" : fmt::format("time since the start of {} [ms]", phase);
+}
+
+TimeZero time_zero(const RunFolder& a, const RunFolder& b) {
+  for (const auto& phase : a.phases) {
+    const PhaseSpan* other = b.phase(phase.name);
+    if (other == nullptr || phase.start == other->start) continue;
+    return {phase.start, other->start, phase.name};
+  }
+  return {};
+}
+
+std::vector<figures::CurveFigure::Mark> phase_marks(const RunFolder& a, const RunFolder& b,
+                                                    const Labels& labels, const TimeZero& zero) {
+  std::vector<figures::CurveFigure::Mark> result;
+  const auto end_of = [](const PhaseSpan& p, double from) { return 1e3 * (p.end - from); };
+  for (const auto& phase : a.phases) {
+    const PhaseSpan* other = b.phase(phase.name);
+    const double at = end_of(phase, zero.a);
+    const bool same =
+        other != nullptr && std::abs(at - end_of(*other, zero.b)) < 1e-3 * std::max(1.0, std::abs(at));
+    result.push_back(
+        {at, same ? "end of " + phase.name : fmt::format("end of {} ({})", phase.name, labels[0])});
+    if (other != nullptr && !same) {
+      result.push_back({end_of(*other, zero.b), fmt::format("end of {} ({})", phase.name, labels[1])});
+    }
+  }
+  for (const auto& phase : b.phases) {
+    if (a.phase(phase.name) != nullptr) continue;
+    result.push_back({end_of(phase, zero.b), fmt::format("end of {} ({})", phase.name, labels[1])});
+  }
+  std::sort(result.begin(), result.end(), [](const auto& p, const auto& q) { return p.x < q.x; });
+  return result;
+}
 
 std::vector<NamedFigure> series_figures(const RunFolder& a, const RunFolder& b, const Labels& labels) {
   const Series s{a, b, labels, time_zero(a, b)};
@@ -144,12 +140,15 @@ std::vector<NamedFigure> series_figures(const RunFolder& a, const RunFolder& b, 
               {"particles_lost", "", "grains lost", ""}});
   for (const auto& wall : walls_of_both(a, b)) {
     const std::string normal = wall + "_normal_force_N", shear = wall + "_shear_force_N";
-    add_figure(all, s, "force_" + wall, "Forces on " + wall,
-               "per contact: total force / number of grain contacts with it",
-               {{normal, wall + "_contacts", "normal force per contact", "N"},
-                {shear, wall + "_contacts", "shear force per contact", "N"},
-                {normal, "", "normal force, total", "N"},
-                {shear, "", "shear force, total", "N"}});
+    add_figure(
+        all, s, "force_" + wall, "Forces on " + wall,
+        "per contact: total / number of contacts; shear is the magnitude of the vector sum over contacts, "
+        "'magnitudes' the sum of their magnitudes",
+        {{normal, wall + "_contacts", "normal force per contact", "N"},
+         {shear, wall + "_contacts", "shear force per contact", "N"},
+         {wall + "_shear_force_sum_N", wall + "_contacts", "shear force per contact, magnitudes", "N"},
+         {normal, "", "normal force, total", "N"},
+         {shear, "", "shear force, total", "N"}});
     add_figure(all, s, "stress_" + wall, "Stresses on " + wall,
                "contact area: sum of the contact circles; footprint: cells of the wall that powder touches",
                {{normal, wall + "_contact_area_m2", "normal, per contact area", "Pa"},

@@ -3,7 +3,8 @@
 // Two phases: spread (0 to 10 ms) and compact (10 to 20 ms), a sample each millisecond. With strength s:
 //   mean inter-particle force 1 uN * s in spread, 0.5 uN * s in compact
 //   floor: normal force 6 uN * s on 3 contacts of 2 grains, 2e-9 m^2 contact circles, 5e-9 m^2 footprint;
-//   shear half
+//   shear half, its
+//   magnitudes three quarters
 // One field, `layer`, 4 x 3 x 2 voxels of 20 um, with a frame at the end of each phase and a line along y.
 #pragma once
 
@@ -29,13 +30,14 @@ struct SyntheticRun {
 inline std::string series_of(const SyntheticRun& run) {
   std::string csv =
       "time_s,particles,particles_lost,kinetic_energy_J,contacts,coordination_mean,contact_force_mean_N,"
-      "contact_force_max_N,contact_normal_force_mean_N,floor_normal_force_N,floor_shear_force_N,floor_"
+      "contact_force_max_N,contact_normal_force_mean_N,floor_normal_force_N,floor_shear_force_N,floor_shear_"
+      "force_sum_N,floor_"
       "contacts,"
       "floor_particles,floor_contact_area_m2,floor_footprint_area_m2\n";
   for (int ms = 0; ms <= (run.compacts ? 20 : 10); ++ms) {
     const double s = run.strength, force = ms <= 10 ? 1e-6 * s : 0.5e-6 * s;
-    csv += fmt::format("{},100,{},1e-12,{},{},{},{},{},{},{},3,2,2e-9,5e-9\n", ms * 1e-3, run.lost, 200, 4,
-                       force, force * 10 + ms * 1e-9, force * 0.75, 6e-6 * s, 3e-6 * s);
+    csv += fmt::format("{},100,{},1e-12,{},{},{},{},{},{},{},{},3,2,2e-9,5e-9\n", ms * 1e-3, run.lost, 200, 4,
+                       force, force * 10 + ms * 1e-9, force * 0.75, 6e-6 * s, 3e-6 * s, 4.5e-6 * s);
   }
   return csv;
 }

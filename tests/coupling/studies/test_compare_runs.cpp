@@ -81,6 +81,7 @@ TEST_F(CompareRuns, EveryNumberIsTheOneExpected) {
       {"spread/floor/normal_stress_footprint_Pa", {1200, 2400}},
       {"compact/floor/shear_force_N", {3e-6, 6e-6}},
       {"compact/floor/shear_force_per_contact_N", {1e-6, 2e-6}},
+      {"compact/floor/shear_sum_force_per_contact_N", {1.5e-6, 3e-6}},
       {"compact/floor/shear_stress_contact_area_Pa", {1500, 3000}},
       {"compact/floor/shear_stress_footprint_Pa", {600, 1200}},
       {"spread/layer/solid_fraction_gap", {0.25, 0.25}},
