@@ -336,6 +336,19 @@ TEST(SceneErrors, ATableHeaderWithoutAName) {  // toml++ 3.3 asserts on these
   }
 }
 
+TEST(SceneErrors, LettersBeyondAsciiOutsideQuotes) {
+  for (const std::string letter :
+       {"\xC2\xB5", "\xC3\xA9", "\xE2\x80\x8B", "\xE2\x82\xAC", "\xEF\xBB\xBF", "\xF0\x9F\x98\x80"}) {
+    for (const std::string from : {"seed = 7", "seed", "= 7", "[time]"}) {
+      const auto errors = errors_of(replaced(kExampleScene, from, from + letter));
+      ASSERT_EQ(errors.size(), 1u) << from << letter;
+      EXPECT_NE(errors[0].find("not valid TOML"), std::string::npos) << errors[0];
+    }
+    EXPECT_TRUE(
+        errors_of(replaced(kExampleScene, "\"Example\"", "\"\"\"\\\n  " + letter + "\"\"\"")).empty());
+  }
+}
+
 TEST(SceneErrors, FilesThatCannotBeRead) {
   for (const std::string& path : {std::string("/no/such/scene.toml"), std::string("/")}) {
     try {
