@@ -13,6 +13,8 @@
 #include "base/error.h"
 #include "base/version.h"
 #include "coupling/io/particle_reader.h"
+#include "coupling/scene/sizes.h"
+#include "dem/packing.h"
 #include "dem/simulation.h"
 #include "dem/statistics.h"
 #include "dem/time_step.h"
@@ -28,7 +30,7 @@ struct BenchArguments {
   int tiles_x = 1, tiles_y = 1;
   int blocks = 5, steps = 100;
   double voxel = 17.3e-6;
-  bool no_cohesion = false;
+  bool no_cohesion = false, equal_sizes = false;
   ComputeOptions compute;
 };
 
@@ -38,7 +40,21 @@ struct Bed {
   Vec3d size;
 };
 
-/// Copies a bed side by side. Its own box must be periodic (or its bounds are taken, and the seams show).
+/// Copies a periodic cell side by side.
+Bed tiled(const std::vector<dem::NewGrain>& cell, const Vec3d& size, int tiles_x, int tiles_y) {
+  Bed bed;
+  for (int ty = 0; ty < tiles_y; ++ty) {
+    for (int tx = 0; tx < tiles_x; ++tx) {
+      for (dem::NewGrain g : cell) {
+        g.position += Vec3d{tx * size.x, ty * size.y, 0};
+        bed.grains.push_back(g);
+      }
+    }
+  }
+  bed.size = {tiles_x * size.x, tiles_y * size.y, size.z};
+  return bed;
+}
+
 Bed read_bed(const BenchArguments& a) {
   const auto reader = io::open_particles(a.bed, {});
   io::ParticleFrame frame, next;
@@ -52,49 +68,74 @@ Bed read_bed(const BenchArguments& a) {
       box.hi[axis] = std::max(box.hi[axis], p[axis] + frame.radius[i]);
     }
   }
-  if (frame.bounds) {
-    box.lo.x = frame.bounds->lo.x, box.lo.y = frame.bounds->lo.y;
+  if (frame.bounds) {  // walls where the source had them, whatever the grains reach
+    box.lo.x = frame.bounds->lo.x, box.lo.y = frame.bounds->lo.y, box.lo.z = 0;
     box.hi.x = frame.bounds->hi.x, box.hi.y = frame.bounds->hi.y;
-    box.lo.z = 0;
   }
-  Bed bed;
-  const Vec3d cell = box.size();
-  for (int ty = 0; ty < a.tiles_y; ++ty) {
-    for (int tx = 0; tx < a.tiles_x; ++tx) {
-      for (std::size_t i = 0; i < frame.size(); ++i) {
-        dem::NewGrain g;
-        g.position = Vec3d{frame.x[i], frame.y[i], frame.z[i]} - box.lo + Vec3d{tx * cell.x, ty * cell.y, 0};
-        g.radius = frame.radius[i];
-        bed.grains.push_back(g);
-      }
-    }
+  std::vector<dem::NewGrain> grains(frame.size());
+  for (std::size_t i = 0; i < frame.size(); ++i) {
+    grains[i].position = Vec3d{frame.x[i], frame.y[i], frame.z[i]} - box.lo;
+    grains[i].radius = frame.radius[i];
   }
-  bed.size = {a.tiles_x * cell.x, a.tiles_y * cell.y, cell.z};
-  return bed;
+  return tiled(grains, box.size(), a.tiles_x, a.tiles_y);
 }
 
 /// Paper 004's powder on a floor; periodic sides where the bed is tiled, walls where it is not.
-dem::Model model_of(const Bed& bed, const BenchArguments& a) {
+dem::Model model_of(const Vec3d& size, bool walls, bool cohesion, double softening) {
   dem::Model m;
-  m.domain = {{0, 0, -1e-3}, {bed.size.x, bed.size.y, bed.size.z + 5e-3}};
-  m.materials = {{8200, 1e9, 0.3}, {8200, 1e9, 0.3}};
-  const dem::PairCoefficients powder{0.35, 0.3, 0.005, 1e6}, wall{0.35, 0.9, 0.005, 1e6};
+  m.domain = {{0, 0, -1e-3}, {size.x, size.y, size.z + 5e-3}};
+  m.materials = {{8200, 1e9 * softening, 0.3}, {8200, 1e9 * softening, 0.3}};
+  const double k = 1e6 * std::pow(softening, 2.0 / 3);  // keeps pull-off over weight
+  const dem::PairCoefficients powder{0.35, 0.3, 0.005, k}, wall{0.35, 0.9, 0.005, k};
   m.pairs = {powder, wall, wall, powder};
-  m.features = {true, true, !a.no_cohesion, false};
+  m.features = {true, true, cohesion, false};
   m.walls = {{Plane{{0, 0, 0}, {0, 0, 1}}, 1}};
-  if (a.tiles_x * a.tiles_y > 1) {
+  if (!walls) {
     m.boundary = {dem::AxisBoundary::periodic, dem::AxisBoundary::periodic, dem::AxisBoundary::open};
-  } else {
-    for (int axis = 0; axis < 2; ++axis) {
-      Vec3d inward{0, 0, 0};
-      inward[axis] = 1;
-      m.walls.push_back({Plane{{0, 0, 0}, inward}, 1});
-      m.walls.push_back({Plane{bed.size, -inward}, 1});
-    }
-    m.domain.lo.x = m.domain.lo.y = -1e-3;
-    m.domain.hi.x += 1e-3, m.domain.hi.y += 1e-3;
+    return m;
+  }
+  for (int axis = 0; axis < 2; ++axis) {
+    Vec3d inward{0, 0, 0};
+    inward[axis] = 1;
+    m.walls.push_back({Plane{{0, 0, 0}, inward}, 1});
+    m.walls.push_back({Plane{size, -inward}, 1});
+    m.domain.lo[axis] = -1e-3;
+    m.domain.hi[axis] += 1e-3;
   }
   return m;
+}
+
+double step_of(const std::vector<dem::NewGrain>& grains, const dem::Model& model) {
+  double smallest = INFINITY;
+  for (const dem::NewGrain& g : grains) smallest = std::min(smallest, g.radius);
+  return 0.2 * dem::rayleigh_time(smallest, model.materials[0]);
+}
+
+/// Lets a packing come to rest: first soft (large steps, whatever overlap is left goes), then with the full
+/// modulus.
+void settle(std::vector<dem::NewGrain>& grains, const Vec3d& size, bool cohesion) {
+  for (const auto& [softening, steps] : {std::pair{0.01, 20000}, {0.1, 20000}, {1.0, 20000}}) {
+    const dem::Model model = model_of(size, false, cohesion, softening);
+    dem::Simulation sim(model, 0.25 * step_of(grains, model));
+    sim.add_grains(grains);
+    sim.advance(steps);
+    dem::GrainColumns c;
+    sim.copy_columns(c);
+    for (std::size_t i = 0; i < grains.size(); ++i) grains[i].position = {c.x[i], c.y[i], c.z[i]};
+  }
+}
+
+/// A bed like that of paper 004, 3 mm x 0.5 mm x 1.5 mm: a periodic cell of 972 grains, 12 x 3 times.
+Bed make_bed(const BenchArguments& a) {
+  scene::Diameters sizes;
+  sizes.law = scene::SizeLaw::normal;
+  sizes.mean = 39.4e-6, sizes.sd = 10.46e-6, sizes.min = 5e-6, sizes.max = 65e-6;
+  std::vector<double> radii = scene::sample_diameters(sizes, 972, 1, 0);
+  for (double& r : radii) r *= a.equal_sizes ? 20e-6 / r : 0.5;
+  std::vector<dem::NewGrain> cell = dem::pack_in_cell(radii, 0.25e-3, 0.5e-3 / 3, 0.58, 1);
+  const Vec3d size{0.25e-3, 0.5e-3 / 3, 1.8e-3};
+  settle(cell, size, !a.no_cohesion);
+  return tiled(cell, size, 12, 3);
 }
 
 Json spread(std::vector<double> values) {
@@ -103,11 +144,9 @@ Json spread(std::vector<double> values) {
 }
 
 Json bench_steps(const Bed& bed, const BenchArguments& a) {
-  double smallest = INFINITY;
-  for (const dem::NewGrain& g : bed.grains) smallest = std::min(smallest, g.radius);
-  const dem::Model model = model_of(bed, a);
-  dem::Simulation sim(model, 0.2 * dem::rayleigh_time(smallest, model.materials[0]),
-                      {a.compute.backend == "reference", 0});
+  const bool walls = !a.bed.empty() && a.tiles_x * a.tiles_y == 1;
+  const dem::Model model = model_of(bed.size, walls, !a.no_cohesion, 1);
+  dem::Simulation sim(model, step_of(bed.grains, model), {a.compute.backend == "reference", 0});
   sim.add_grains(bed.grains);
   sim.advance(20);
   std::vector<double> rates;
@@ -156,7 +195,7 @@ void bench(const BenchArguments& a) {
   if (a.blocks < 1 || a.steps < 1 || a.tiles_x < 1 || a.tiles_y < 1) {
     throw InputError("bench: --blocks, --steps and --tiles must be at least 1; leave them out for the usual");
   }
-  const Bed bed = read_bed(a);
+  const Bed bed = a.bed.empty() ? make_bed(a) : read_bed(a);
   Json j;
   j["version"] = kVersion;
   j["commit"] = kCommit;
@@ -164,7 +203,7 @@ void bench(const BenchArguments& a) {
   j["threads"] = a.compute.backend == "reference" ? 1
                  : a.compute.threads > 0          ? a.compute.threads
                                                   : tbb::info::default_concurrency();
-  j["bed"] = a.bed;
+  j["bed"] = !a.bed.empty() ? a.bed : a.equal_sizes ? "settled, equal 40 um" : "settled, 5 to 65 um";
   j["steps"] = bench_steps(bed, a);
   j["field"] = bench_field(bed, a);
   fmt::print("{}\n", j.dump(2));
@@ -175,12 +214,12 @@ void bench(const BenchArguments& a) {
 void add_bench(CLI::App& root) {
   auto a = std::make_shared<BenchArguments>();
   CLI::App* c = root.add_subcommand("bench", "time steps and fields on a settled bed; prints JSON");
-  c->add_option("--bed", a->bed,
-                "particle file with the bed (default: the cell of a settled bed, tiled to 35,000)");
+  c->add_option("--bed", a->bed, "particle file with a settled bed (default: one of 35,000 grains is made)");
   c->add_option("--tiles-x", a->tiles_x, "copies of the bed along x (its box is then periodic)");
   c->add_option("--tiles-y", a->tiles_y, "copies along y");
   c->add_option("--blocks", a->blocks, "timed blocks");
   c->add_option("--steps", a->steps, "steps in a block");
+  c->add_flag("--equal-sizes", a->equal_sizes, "the built-in bed with 40 um grains instead of 5 to 65 um");
   c->add_flag("--no-cohesion", a->no_cohesion, "without SJKR");
   add_compute_options(*c, a->compute);
   c->callback([a] { bench(*a); });

@@ -112,19 +112,35 @@ Sums sums_of(const SpheresView& spheres, const LayerRequest& request, const Stan
 double ratio(double part, double whole) { return whole > 0 ? part / whole : 0.0; }
 
 // Sums over a set of columns, from which all means follow.
+// Ground that a wall stands on counts for nothing.
 struct Totals {
   double solid = 0, available = 0, height = 0, surface = 0;
-  std::size_t count = 0;
 
   void add(const LayerColumns& columns, std::size_t c) {
-    solid += columns.solid_fraction[c] * columns.available_volume[c];
-    available += columns.available_volume[c];
-    height += columns.solid_height[c];
-    surface += columns.surface_height[c];
-    ++count;
+    const double weight =
+        columns.available_volume[c];  // as good as the free area: the gap is equally high everywhere
+    solid += columns.solid_fraction[c] * weight;
+    available += weight;
+    height += columns.solid_height[c] * weight;
+    surface += columns.surface_height[c] * weight;
   }
-  double mean(double sum) const { return count > 0 ? sum / static_cast<double>(count) : 0.0; }
 };
+
+// Over the columns that are free for the most part: slivers beside a moving wall would only add noise.
+double deviation_of(const LayerColumns& columns) {
+  const double most = columns.available_volume.empty() ? 0
+                                                       : *std::max_element(columns.available_volume.begin(),
+                                                                           columns.available_volume.end());
+  double sum = 0, squares = 0, count = 0;
+  const auto free_columns = [&](const auto& body) {
+    for (std::size_t c = 0; c < columns.solid_fraction.size(); ++c)
+      if (columns.available_volume[c] > 0.5 * most) body(columns.solid_fraction[c]);
+  };
+  free_columns([&](double value) { sum += value, ++count; });
+  const double mean = ratio(sum, count);
+  free_columns([&](double value) { squares += (value - mean) * (value - mean); });
+  return count > 1 ? std::sqrt(squares / (count - 1)) : 0.0;
+}
 
 }  // namespace
 
@@ -134,7 +150,6 @@ LayerColumns layer_columns(const SpheresView& spheres, const Solids& solids, con
   const Stands stands = stands_of(spheres, request);
   const Sums sums = sums_of(spheres, request, stands);
   const Lattice& gap = stands.gap;
-  const double area = gap.h.x * gap.h.y;
   LayerColumns columns;
   columns.columns = request.columns;
   for (std::int64_t i = 0; i < gap.n[0]; ++i) columns.x.push_back(gap.cell_center(i, 0, 0).x);
@@ -148,7 +163,7 @@ LayerColumns layer_columns(const SpheresView& spheres, const Solids& solids, con
       if (!solids.empty())
         available = std::max(0.0, available - solid_volume(solids, {corner, corner + gap.h}));
       if (available < 1e-12 * gap.cell_volume()) available = 0;  // rounding of a wall that fills the column
-      const double height = sums.whole[c] / area;
+      const double height = ratio(sums.whole[c], available / gap.h.z);
       columns.available_volume.push_back(available);
       columns.solid_fraction.push_back(ratio(sums.gap[c], available));
       columns.mass_density.push_back(ratio(sums.mass[c], available));
@@ -161,18 +176,13 @@ LayerColumns layer_columns(const SpheresView& spheres, const Solids& solids, con
 
 LayerSummary layer_summary(const LayerColumns& columns) {
   Totals totals;
-  const std::size_t n = columns.solid_fraction.size();
-  for (std::size_t c = 0; c < n; ++c) totals.add(columns, c);
+  for (std::size_t c = 0; c < columns.solid_fraction.size(); ++c) totals.add(columns, c);
   LayerSummary summary;
   summary.solid_fraction_gap = ratio(totals.solid, totals.available);
-  summary.solid_height = totals.mean(totals.height);
-  summary.surface_height = totals.mean(totals.surface);
+  summary.solid_height = ratio(totals.height, totals.available);
+  summary.surface_height = ratio(totals.surface, totals.available);
   summary.solid_fraction_below_surface = ratio(totals.height, totals.surface);
-  double sum = 0, squares = 0;
-  for (const double value : columns.solid_fraction) sum += value;
-  const double mean = totals.mean(sum);
-  for (const double value : columns.solid_fraction) squares += (value - mean) * (value - mean);
-  summary.solid_fraction_sd = n > 1 ? std::sqrt(squares / static_cast<double>(n - 1)) : 0.0;
+  summary.solid_fraction_sd = deviation_of(columns);
   return summary;
 }
 
@@ -186,8 +196,8 @@ LayerProfile layer_profile(const LayerColumns& columns, int axis) {
     for (std::size_t q = 0; q < (axis == 0 ? ny : nx); ++q)
       totals.add(columns, axis == 0 ? p + nx * q : q + nx * p);
     profile.solid_fraction.push_back(ratio(totals.solid, totals.available));
-    profile.solid_height.push_back(totals.mean(totals.height));
-    profile.surface_height.push_back(totals.mean(totals.surface));
+    profile.solid_height.push_back(ratio(totals.height, totals.available));
+    profile.surface_height.push_back(ratio(totals.surface, totals.available));
     profile.solid_fraction_below_surface.push_back(ratio(totals.height, totals.surface));
   }
   return profile;

@@ -26,12 +26,15 @@ struct LayerColumns {
   std::vector<double>
       solid_fraction;                // solid volume in the gap / available volume; 0 where none is available
   std::vector<double> mass_density;  // [kg/m^3], same volume
-  std::vector<double> solid_height;  // solid volume above the layer's floor, at any height, per area [m]
+  std::vector<double>
+      solid_height;  // solid volume above the floor, at any height, per area free of walls [m]
   std::vector<double> surface_height;  // highest point of powder in the column above the floor [m]; 0: none
   std::vector<double> solid_fraction_below_surface;  // solid height / surface height; 0 without powder
 };
 
-/// Means over columns, and the sample standard deviation (N - 1) of the gap's solid fraction.
+/// Means over the area that walls leave free (so that a wall closing in on the same powder makes the layer
+/// higher), and the sample standard deviation (N - 1) of the gap's solid fraction over the columns that are
+/// mostly free.
 struct LayerSummary {
   double solid_fraction_gap = 0;            // sum of solid / sum of available in the gap
   double solid_fraction_sd = 0;             // over columns

@@ -348,8 +348,9 @@ RunResult Run::go() {
       state_.spans.back().ended_by = why;
       if (++state_.phase < scene_.phases.size()) enter_phase();
     }
+    if (state_.phase == scene_.phases.size()) break;
     report_progress();
-    if (state_.phase < scene_.phases.size() && stop_requested(result)) break;
+    if (stop_requested(result)) break;
     if (over || seconds_since(last_checkpoint_) >= checkpoint_seconds) checkpoint();
   }
   result.finished = state_.phase == scene_.phases.size();

@@ -203,7 +203,8 @@ void add_profiles(std::vector<NamedFigure>& all, const Moment& m) {
   for (const char* axis : {"x", "y"}) {
     std::vector<figures::CurveFigure> panels;
     for (const auto& number : numbers) {
-      auto panel = overlay(m, fmt::format("profile_{}.csv", axis), "at_m", number.column, number.scale);
+      auto panel = overlay(m, fmt::format("profile_{}.csv", axis), fmt::format("{}_m", axis), number.column,
+                           number.scale);
       if (panel.curves.empty()) continue;
       panel.y_label = number.label;
       panels.push_back(std::move(panel));

@@ -94,7 +94,7 @@ Sentence sentence(const Quantity& q, const Labels& labels) {
                    : parts[0] == "end" ? fmt::format("Field '{}' at the end", parts[1])
                                        : fmt::format("Field '{}' after {}", parts[1], parts[0]);
   what[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(what[0])));
-  result.text = fmt::format("- {}{}: {}.\n", what, line ? " " + spoken(parts[3]) : "", values(q, labels));
+  result.text = fmt::format("- {}{}: {}.\n", what, line ? fmt::format(" {}", spoken(parts[3])) : std::string(), values(q, labels));
   return result;
 }
 
@@ -127,7 +127,7 @@ std::string report(const Comparison& comparison) {
         "most {:+.4g} in one voxel.\n",
         field, d.whole ? "" : ", on the box that both cover", d.mean, d.rms, d.largest);
   }
-  for (const auto& remark : comparison.remarks) text += "- " + remark + "\n";
+  for (const auto& remark : comparison.remarks) text += fmt::format("- {}\n", remark);
   return text;
 }
 

@@ -86,9 +86,9 @@ inline void write_moment(const std::filesystem::path& fields, const std::string&
   write(folder / "lines" / "y@x=5e-05,z=1e-05.csv", line);
   for (const char* axis : {"x", "y"}) {
     write(folder / fmt::format("profile_{}.csv", axis),
-          fmt::format("at_m,solid_fraction,solid_height_m,surface_height_m,solid_fraction_below_surface\n"
+          fmt::format("{1}_m,solid_fraction,solid_height_m,surface_height_m,solid_fraction_below_surface\n"
                       "1e-5,{0},1e-5,2e-5,0.5\n3e-5,{0},1e-5,2e-5,0.5\n",
-                      solid));
+                      solid, axis));
   }
   write(folder / "summary.json", R"({"voxel_m": 2e-5, "method": "exact", "average_m": null})");
   write_vdb(fields / (stem + ".vdb"), run, solid);
