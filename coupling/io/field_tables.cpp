@@ -1,0 +1,84 @@
+#include "coupling/io/field_tables.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <iterator>
+
+namespace interstice::io {
+namespace {
+
+using Text = fmt::memory_buffer;
+
+void add(Text& out, double value, char after = ',') {
+  fmt::format_to(std::back_inserter(out), "{}{}", value, after);
+}
+
+// A value that came out of a grid of floats is printed as the float it is: 0.3, not 0.30000001192092896.
+void add_stored(Text& out, double value, char after = ',') {
+  const auto stored = static_cast<float>(value);
+  if (static_cast<double>(stored) == value) {
+    fmt::format_to(std::back_inserter(out), "{}{}", stored, after);
+  } else {
+    add(out, value, after);
+  }
+}
+
+}  // namespace
+
+std::string csv_of(const voxel::Samples& samples) {
+  const bool dense = !samples.mass_density.empty();
+  const bool averaged = !samples.void_fraction_averaged.empty();
+  std::string head = "x_m,y_m,z_m,void_fraction,solid_fraction,mass_density_kg_m3";
+  head += averaged ? ",void_fraction_averaged\n" : "\n";
+  Text out;
+  out.append(head);
+  for (std::size_t i = 0; i < samples.center.size(); ++i) {
+    add(out, samples.center[i].x);
+    add(out, samples.center[i].y);
+    add(out, samples.center[i].z);
+    add_stored(out, samples.void_fraction[i]);
+    add_stored(out, samples.solid_fraction[i]);
+    add_stored(out, dense ? samples.mass_density[i] : std::nan(""), averaged ? ',' : '\n');
+    if (averaged) add_stored(out, samples.void_fraction_averaged[i], '\n');
+  }
+  return fmt::to_string(out);
+}
+
+std::string csv_of(const voxel::LayerColumns& columns) {
+  Text out;
+  out.append(
+      std::string_view("x_m,y_m,solid_fraction,mass_density_kg_m3,solid_height_m,surface_height_m,"
+                       "solid_fraction_below_surface\n"));
+  const bool dense = !columns.mass_density.empty();
+  for (std::size_t j = 0; j < columns.y.size(); ++j) {
+    for (std::size_t i = 0; i < columns.x.size(); ++i) {
+      const std::size_t c = i + columns.x.size() * j;
+      add(out, columns.x[i]);
+      add(out, columns.y[j]);
+      add(out, columns.solid_fraction[c]);
+      add(out, dense ? columns.mass_density[c] : std::nan(""));
+      add(out, columns.solid_height[c]);
+      add(out, columns.surface_height[c]);
+      add(out, columns.solid_fraction_below_surface[c], '\n');
+    }
+  }
+  return fmt::to_string(out);
+}
+
+std::string csv_of(const voxel::LayerProfile& profile, int axis) {
+  Text out;
+  fmt::format_to(std::back_inserter(out),
+                 "{}_m,solid_fraction,solid_height_m,surface_height_m,solid_fraction_below_surface\n",
+                 "xy"[axis]);
+  for (std::size_t i = 0; i < profile.at.size(); ++i) {
+    add(out, profile.at[i]);
+    add(out, profile.solid_fraction[i]);
+    add(out, profile.solid_height[i]);
+    add(out, profile.surface_height[i]);
+    add(out, profile.solid_fraction_below_surface[i], '\n');
+  }
+  return fmt::to_string(out);
+}
+
+}  // namespace interstice::io

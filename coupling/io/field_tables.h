@@ -1,0 +1,22 @@
+// Slices, lines and layers of a field as CSV text. Numbers are the shortest that read back as the same value.
+#pragma once
+
+#include <string>
+
+#include "voxel/layer.h"
+#include "voxel/sample.h"
+
+namespace interstice::io {
+
+/// x_m,y_m,z_m,void_fraction,solid_fraction,mass_density_kg_m3[,void_fraction_averaged]; a row per voxel. A
+/// density that is not known is nan.
+std::string csv_of(const voxel::Samples& samples);
+
+/// x_m,y_m,solid_fraction,mass_density_kg_m3,solid_height_m,surface_height_m,solid_fraction_below_surface; a
+/// row per column, x fastest.
+std::string csv_of(const voxel::LayerColumns& columns);
+
+/// The layer's numbers along x (axis 0) or y (axis 1), averaged over the other.
+std::string csv_of(const voxel::LayerProfile& profile, int axis);
+
+}  // namespace interstice::io
