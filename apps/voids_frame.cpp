@@ -1,0 +1,151 @@
+#include "apps/voids_frame.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.h"
+#include "coupling/scene/format_quantity.h"
+
+namespace interstice::apps {
+namespace {
+
+[[noreturn]] void wrong(const std::string& where, const std::string& what) {
+  throw InputError(where + ": " + what);
+}
+
+// The grains' bounds, spheres and all; along periodic axes the source's own box, since grains reach across
+// it.
+Box default_box(const io::ParticleFrame& frame, const VoidsOptions& options, const std::string& where) {
+  Box box{{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
+  for (std::size_t i = 0; i < frame.size(); ++i) {
+    const double r = frame.radius[i];
+    const Vec3d p{frame.x[i], frame.y[i], frame.z[i]};
+    for (int a = 0; a < 3; ++a) {
+      box.lo[a] = std::min(box.lo[a], p[a] - r);
+      box.hi[a] = std::max(box.hi[a], p[a] + r);
+    }
+  }
+  for (int a = 0; a < 3; ++a) {
+    if (!options.periodic[static_cast<std::size_t>(a)]) continue;
+    if (!frame.bounds)
+      wrong(where, "the file says no box to repeat; --periodic needs one; give it with --box");
+    box.lo[a] = frame.bounds->lo[a];
+    box.hi[a] = frame.bounds->hi[a];
+  }
+  if (!(box.hi.x > box.lo.x && box.hi.y > box.lo.y && box.hi.z > box.lo.z)) {
+    wrong(where, "no particles, so no box follows from them; a box is needed; give it with --box");
+  }
+  return box;
+}
+
+void check_periods(const Box& box, const VoidsOptions& options, const std::string& where) {
+  const Vec3d size = box.size();
+  for (int a = 0; a < 3; ++a) {
+    if (!options.periodic[static_cast<std::size_t>(a)]) continue;
+    const double cells = std::max(1.0, std::round(size[a] / options.voxel));
+    if (std::abs(cells * options.voxel - size[a]) > 1e-9 * size[a]) {
+      wrong(where,
+            fmt::format("--voxel: {} does not divide the period along {} ({}); a whole number of voxels is "
+                        "needed; take --voxel {}",
+                        scene::format_length(options.voxel), "xyz"[a], scene::format_length(size[a]),
+                        scene::format_exact(size[a] / cells, scene::Dimension::length)));
+    }
+  }
+}
+
+// Grids hold the voxels near grains only; a wrong unit of length makes these many more than a machine has
+// room for.
+void check_memory(const io::ParticleFrame& frame, const voxel::FieldRequest& request,
+                  const std::string& where) {
+  const double h = request.lattice.h.x;
+  double touched = 0;
+  for (const double r : frame.radius) touched += std::pow(2 * r / h + 9, 3);  // a grain's box in leaves of 8
+  const auto& n = request.lattice.n;
+  const double cells = static_cast<double>(n[0]) * static_cast<double>(n[1]) * static_cast<double>(n[2]);
+  const double bytes = 12 * std::min(touched, cells) * (request.average_length > 0 ? 2 : 1);
+  const double memory =
+      static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGE_SIZE));
+  if (bytes > memory) {
+    wrong(where, fmt::format(
+                     "the field would need some {:.3g} GB ({} x {} x {} voxels); this machine has {:.3g} GB; "
+                     "take a larger --voxel or a smaller --box, and check the unit of length (--length-unit)",
+                     1e-9 * bytes, n[0], n[1], n[2], 1e-9 * memory));
+  }
+}
+
+void check_places(const voxel::Lattice& lattice, const VoidsOptions& options, const std::string& where) {
+  const auto check = [&](int axis, double at, const std::string& key) {
+    const Box box = lattice.box();
+    if (at >= box.lo[axis] && at <= box.hi[axis]) return;
+    wrong(where, fmt::format("{}: {} = {} is outside the box; {} to {}; move it, or widen --box", key,
+                             "xyz"[axis], scene::format_length(at), scene::format_length(box.lo[axis]),
+                             scene::format_length(box.hi[axis])));
+  };
+  for (const auto& slice : options.slices) check(slice.axis, slice.at, "--slice");
+  for (const auto& line : options.lines) {
+    for (int a = 0; a < 3; ++a) {
+      if (a != line.axis) check(a, line.at[a], "--line");
+    }
+  }
+}
+
+}  // namespace
+
+FramePlan plan_frame(const io::ParticleFrame& frame, const VoidsOptions& options, const std::string& where) {
+  FramePlan plan;
+  auto& request = plan.request;
+  request.box = options.box ? *options.box : default_box(frame, options, where);
+  check_periods(request.box, options, where);
+  auto& computed = request.computed;
+  try {
+    computed.lattice = voxel::cubic_lattice(request.box, options.voxel);
+  } catch (const InputError& error) {
+    wrong(where, error.what());
+  }
+  computed.periodic = options.periodic;
+  computed.method = options.method;
+  computed.subsample = options.subsample;
+  computed.average_length = options.average;
+  computed.density = options.density;
+  check_memory(frame, computed, where);
+  check_places(computed.lattice, options, where);
+  request.slices = options.slices;
+  request.lines = options.lines;
+  if (options.layers) {
+    voxel::LayerRequest layers;
+    layers.box = request.box;
+    layers.box.lo.z = options.layers->lo;
+    layers.box.hi.z = options.layers->hi;
+    layers.columns = options.layers->columns;
+    layers.periodic = options.periodic;
+    layers.density = options.density;
+    request.layers = layers;
+  }
+  request.frame = -1;
+  request.step = frame.step;
+  request.time = frame.time;
+  for (const auto& wall : frame.walls) plan.solids.shapes.push_back(wall.shape);
+  return plan;
+}
+
+void wrap(io::ParticleFrame& frame, const voxel::FieldRequest& request) {
+  const Box box = request.lattice.box();
+  const std::array<std::vector<double>*, 3> columns{&frame.x, &frame.y, &frame.z};
+  for (int a = 0; a < 3; ++a) {
+    if (!request.periodic[static_cast<std::size_t>(a)]) continue;
+    const double period = box.hi[a] - box.lo[a];
+    for (double& at : *columns[static_cast<std::size_t>(a)]) {
+      if (at < box.lo[a] || at >= box.hi[a]) at -= period * std::floor((at - box.lo[a]) / period);
+    }
+  }
+}
+
+voxel::SpheresView view_of(const io::ParticleFrame& frame) {
+  return {frame.size(),   frame.x.data(),      frame.y.data(),
+          frame.z.data(), frame.radius.data(), frame.density.empty() ? nullptr : frame.density.data()};
+}
+
+}  // namespace interstice::apps

@@ -1,0 +1,28 @@
+// One frame of particles made ready for its field: the box, the lattice, and whether all that was asked for
+// fits.
+#pragma once
+
+#include <string>
+
+#include "apps/voids_options.h"
+#include "coupling/io/field_files.h"
+#include "coupling/io/particle_frame.h"
+#include "voxel/solids.h"
+
+namespace interstice::apps {
+
+struct FramePlan {
+  io::FieldFilesRequest request;  // computed, box, slices, lines and layers filled
+  voxel::Solids solids;
+};
+
+/// Throws InputError (led by `where`) when the frame and the options do not go together: a slice outside, a
+/// period that is no multiple of the voxel, a field that would not fit into memory.
+FramePlan plan_frame(const io::ParticleFrame& frame, const VoidsOptions& options, const std::string& where);
+
+/// Moves grains by whole periods into the box along the periodic axes, where a dump has them unwrapped.
+void wrap(io::ParticleFrame& frame, const voxel::FieldRequest& request);
+
+voxel::SpheresView view_of(const io::ParticleFrame& frame);
+
+}  // namespace interstice::apps

@@ -1,0 +1,60 @@
+// What `interstice voids` was asked for: the words of the command line, and what they mean.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "apps/command.h"
+#include "coupling/io/particle_reader.h"
+#include "coupling/scene/scene.h"
+#include "voxel/field.h"
+
+namespace interstice::apps {
+
+/// As typed.
+struct VoidsWords {
+  std::vector<std::string> inputs;
+  std::string output, voxel, box, periodic, method = "exact", overlap = "sum", average, layers, density,
+                                            length_unit, frame = "last", columns;
+  std::vector<std::string> walls, slices, lines;
+  bool overwrite = false, no_figures = false;
+  ComputeOptions compute;
+};
+
+enum class Frames { last, one, all };
+
+/// In SI, valid as far as that shows without the particles.
+struct VoidsOptions {
+  std::vector<std::filesystem::path> inputs;
+  std::filesystem::path output;
+  double voxel = 0;        // edge [m]
+  std::optional<Box> box;  // [m]
+  std::array<bool, 3> periodic{false, false, false};
+  voxel::Method method = voxel::Method::exact;
+  int subsample = 0;
+  double average = 0;  // [m]
+  std::vector<scene::Slice> slices;
+  std::vector<scene::Line> lines;
+  struct Layers {
+    double lo = 0, hi = 0;  // [m]
+    std::array<std::int64_t, 2> columns{0, 0};
+  };
+  std::optional<Layers> layers;
+  double density = 0;  // [kg/m^3]
+  Frames frames = Frames::last;
+  std::int64_t frame = 0;  // for Frames::one
+  io::ReaderOptions reader;
+  bool overwrite = false, figures = true;
+};
+
+/// Throws InputError with every error found, one line each.
+VoidsOptions read_voids_options(const VoidsWords& words);
+
+/// "bed.final" of "runs/bed.final.dump.gz": the name of an input's folder.
+std::string stem_of(const std::filesystem::path& input);
+
+}  // namespace interstice::apps
