@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "base/error.h"
 #include "base/parallel.h"
+#include "voxel/text.h"
 
 namespace interstice::voxel {
 
@@ -116,9 +116,7 @@ DenseShares dense_shares(const Lattice& lattice, const CellRange& occupied,
   }
   const double doubles = cells * (walls ? 2 : 1);
   if (doubles > kMostDoubles) {
-    char gib[32];
-    std::snprintf(gib, sizeof gib, "%.1f", doubles * 8 / 0x1p30);
-    throw InputError("averaged fields over this box need " + std::string(gib) +
+    throw InputError("averaged fields over this box need " + shown(doubles * 8 / 0x1p30, 3) +
                      " GiB (at most 4); choose a larger voxel, a smaller box, or no averaging length");
   }
   shares.solid.assign(static_cast<std::size_t>(cells), 0.0);

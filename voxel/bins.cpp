@@ -6,6 +6,7 @@
 #include <string>
 
 #include "base/error.h"
+#include "voxel/text.h"
 
 namespace interstice::voxel {
 
@@ -127,14 +128,13 @@ void check_spheres(const SpheresView& spheres, const Lattice& lattice, const std
     if (!(std::isfinite(c.x) && std::isfinite(c.y) && std::isfinite(c.z)))
       report(s, "its position is not finite");
     else if (!(std::isfinite(r) && r > 0))
-      report(s, "its radius is " + std::to_string(r) + " m; it must be finite and positive");
+      report(s, "its radius is " + shown(r) + " m; it must be finite and positive");
     else if (2 * r > kMaxPeriods * shortest_period)
       report(s, "its diameter is more than 64 periods of the box");
     else if (norm(c - lattice.lo) > reach * shortest_period)
       report(s, "it lies more than 2^30 periods away from the box");
     if (spheres.density && !(std::isfinite(spheres.density[s]) && spheres.density[s] > 0))
-      report(s, "its density is " + std::to_string(spheres.density[s]) +
-                    " kg/m^3; it must be finite and positive");
+      report(s, "its density is " + shown(spheres.density[s]) + " kg/m^3; it must be finite and positive");
   }
   if (!errors.empty()) throw InputError(errors);
 }

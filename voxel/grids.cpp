@@ -3,22 +3,17 @@
 #include <openvdb/openvdb.h>
 #include <tbb/parallel_for.h>
 
-#include <cstdio>
+#include "voxel/metre_grid.h"
+#include "voxel/text.h"
 
 namespace interstice::voxel {
 
 namespace {
 
-std::string number(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.17g", value);
-  return text;
-}
-
 std::string box_text(const Box& box) {
   std::string text;
   for (int axis = 0; axis < 3; ++axis)
-    text += (axis ? "," : "") + number(box.lo[axis]) + "," + number(box.hi[axis]);
+    text += (axis ? "," : "") + shown(box.lo[axis], 17) + "," + shown(box.hi[axis], 17);
   return text;
 }
 
@@ -44,10 +39,8 @@ openvdb::FloatGrid::Ptr new_grid(const FieldRequest& request, const std::string&
                                  const std::string& units, float background) {
   const Lattice& lattice = request.lattice;
   const double h = lattice.h.x;
-  auto grid = openvdb::FloatGrid::create(background);
-  auto transform = openvdb::math::Transform::createLinearTransform(h);
-  transform->postTranslate({lattice.lo.x + 0.5 * h, lattice.lo.y + 0.5 * h, lattice.lo.z + 0.5 * h});
-  grid->setTransform(transform);
+  const auto grid = std::make_shared<MetreGrid>(background);
+  grid->setTransform(cell_transform(lattice));
   grid->setName(name);
   if (units == "1") grid->setGridClass(openvdb::GRID_FOG_VOLUME);
   grid->insertMeta("units", openvdb::StringMetadata(units));

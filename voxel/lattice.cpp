@@ -5,6 +5,7 @@
 #include <string>
 
 #include "base/error.h"
+#include "voxel/text.h"
 
 namespace interstice::voxel {
 
@@ -38,7 +39,7 @@ CellRange intersection(const CellRange& a, const CellRange& b) {
 
 Lattice cubic_lattice(const Box& box, double voxel) {
   if (!(std::isfinite(voxel) && voxel > 0))
-    throw InputError("voxel edge is " + std::to_string(voxel) + " m; it must be finite and positive");
+    throw InputError("voxel edge is " + shown(voxel) + " m; it must be finite and positive");
   Lattice lattice{box.lo, {voxel, voxel, voxel}, {0, 0, 0}};
   for (int axis = 0; axis < 3; ++axis) {
     const double length = box.hi[axis] - box.lo[axis];
@@ -74,17 +75,14 @@ std::int64_t floor_index(double value) {
 }
 
 std::int64_t cell_along(const Lattice& lattice, int axis, double at) {
-  const double lo = lattice.lo[axis], h = lattice.h[axis];
-  const auto face = [&](std::int64_t i) { return lo + static_cast<double>(i) * h; };
   const std::int64_t n = lattice.n[axis];
-  if (!(at >= lo && at <= face(n)))
-    throw InputError(axis_name(axis) + " = " + std::to_string(at) + " m is outside the field, which spans " +
-                     std::to_string(lo) + " to " + std::to_string(face(n)) + " m");
-  std::int64_t i = std::clamp<std::int64_t>(floor_index((at - lo) / h), 0, n - 1);
-  // The division's rounding must not put a coordinate on the wrong side of a face.
-  while (i + 1 < n && at >= face(i + 1)) ++i;
-  while (i > 0 && at < face(i)) --i;
-  return i;
+  const double quotient = (at - lattice.lo[axis]) / lattice.h[axis], nearest = std::round(quotient);
+  // A coordinate that was meant to be a face is one, however its last bit was rounded.
+  const double cells = std::abs(quotient - nearest) <= 1e-9 ? nearest : quotient;
+  if (!(cells >= 0 && cells <= static_cast<double>(n)))
+    throw InputError(axis_name(axis) + " = " + shown(at) + " m is outside the field, which spans " +
+                     shown(lattice.lo[axis]) + " to " + shown(lattice.box().hi[axis]) + " m");
+  return std::min(floor_index(cells), n - 1);
 }
 
 }  // namespace interstice::voxel

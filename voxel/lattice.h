@@ -58,8 +58,9 @@ void check_lattice(const Lattice& lattice);
 /// floor(value) as an index, kept within +-2^60 so that no coordinate, however absurd, overflows.
 std::int64_t floor_index(double value);
 
-/// Index of the cell along `axis` that holds the coordinate `at` [m]; the upper face of the lattice belongs
-/// to its last cell. Throws InputError when `at` is outside the lattice.
+/// Index of the cell along `axis` that holds the coordinate `at` [m]: on a face (within 1e-9 of a cell), the
+/// cell above it; on the lattice's upper face, its last cell. Throws InputError when `at` is outside the
+/// lattice.
 std::int64_t cell_along(const Lattice& lattice, int axis, double at);
 
 }  // namespace interstice::voxel

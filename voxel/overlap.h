@@ -1,21 +1,26 @@
-// The exact volume of a sphere in axis-aligned boxes: one box, or all cells of a lattice that the sphere
-// touches.
+// The exact volume of a sphere in axis-aligned boxes: in one, or in all cells of a lattice that it touches.
 //
-// With F(a,b,c) the volume of the unit ball in [0,a]x[0,b]x[0,c] (odd in each argument), the volume in a box
-// is the mixed difference of F over the box's eight corners, so that neighbouring cells share corners. For a,
-// b, c in [0, 1]
-//   F = abc                                                                          where a^2 + b^2 + c^2 <=
-//   1 F = pi/6 - (cap(a) + cap(b) + cap(c))/4 + (W(a,b) + W(b,c) + W(c,a))/2            elsewhere:
-// an octant of the ball, less what lies beyond each of the three planes, plus what was then taken off twice.
-//   cap(a)  = pi (1-a)^2 (2+a)/3, the ball beyond the plane x = a
-//   W(a,b)  = 2 * (the ball where x > a, y > b, z > 0)
-//           = (2 atan2(s, ab) - a(3-a^2) atan2(s, b) - b(3-b^2) atan2(s, a) + 2abs)/3,   s = sqrt(1-a^2-b^2),
-// and 0 where a^2 + b^2 >= 1; W follows from integrating the circular segment y > b of the discs x = const >
-// a. The transcendental part sits in three tables over pairs of lattice planes. Derivation:
-// docs/ARCHITECTURE.md.
+// Let F(a,b,c) be the volume of the unit ball in [0,a] x [0,b] x [0,c], odd in each argument. The volume in a
+// box is F's mixed difference over the box's eight corners, so neighbouring cells share corners.
+// For a, b, c in [0, 1], inside the ball (a^2 + b^2 + c^2 <= 1),
 //
-// Error: about 1e-16 (R/h)^3 of a cell, from cancellation between corners. Beyond kLargeSphere that is
-// avoided: see overlap_large.h.
+//   F = abc,
+//
+// and elsewhere an octant, less what lies beyond each plane, plus what was taken off twice:
+//
+//   F = pi/6 - [cap(a) + cap(b) + cap(c)]/4 + [W(a,b) + W(b,c) + W(c,a)]/2.
+//
+// cap(a) is the ball beyond the plane x = a, W(a,b) the ball where x > a and y > b. Where a^2 + b^2 >= 1 that
+// is nothing; else, integrating the circular segments y > b of the discs at constant x > a,
+//
+//   cap(a) = pi (1-a)^2 (2+a) / 3,
+//   W(a,b) = [2 atan2(s, ab) - a(3-a^2) atan2(s, b) - b(3-b^2) atan2(s, a) + 2abs] / 3,
+//   s      = sqrt(1 - a^2 - b^2).
+//
+// So all that is transcendental sits in three tables over pairs of lattice planes; a corner costs additions.
+//
+// Error: about 1e-16 (R/h)^3 of a cell, from cancellation between corners. Spheres of more than some 50
+// cells' radius go another way, overlap_large.h.
 #pragma once
 
 #include <array>
