@@ -12,29 +12,35 @@ namespace {
 // of a cell) and surface cells are integrated one by one.
 constexpr double kLargeSphere = 125'000;
 
+// Rows of corners and cells are padded to a multiple of four, so that compilers can work on whole rows at
+// once.
+constexpr int kPadded = 12;
+static_assert(kPadded > kBlock);
+
 // The planes of a block that are normal to one axis, as seen from the sphere: coordinates in units of its
-// radius.
+// radius. Padding repeats the last plane; cells between padded planes are never read.
 struct Planes {
   int cells = 0;
-  double edge[kBlock + 1];  // as given
-  double u[kBlock + 1];     // clamped to the ball, [-1, 1]
-  double square[kBlock + 1];
-  double sign[kBlock + 1];
-  double cap[kBlock + 1];                    // quarter of ball_cap(|u|)
-  double nearest[kBlock], farthest[kBlock];  // squared distance from the centre over each cell
+  double edge[kPadded];  // as given
+  double u[kPadded];     // clamped to the ball, [-1, 1]
+  double square[kPadded];
+  double sign[kPadded];
+  double cap[kPadded];                         // quarter of ball_cap(|u|)
+  double nearest[kPadded], farthest[kPadded];  // squared distance from the centre over each cell
 };
 
 void finish(Planes& p) {
-  for (int i = 0; i <= p.cells; ++i) {
+  for (int i = p.cells + 1; i < kPadded; ++i) p.edge[i] = p.edge[p.cells];
+  for (int i = 0; i < kPadded; ++i) {
     const double u = std::clamp(p.edge[i], -1.0, 1.0);
     p.u[i] = u;
     p.square[i] = u * u;
     p.sign[i] = u > 0 ? 1.0 : u < 0 ? -1.0 : 0.0;
     p.cap[i] = 0.25 * ball_cap(std::abs(u));
   }
-  for (int i = 0; i < p.cells; ++i) {
-    const double a = p.edge[i], b = p.edge[i + 1];
-    const double inner = a > 0 ? a : b < 0 ? b : 0.0, outer = std::max(std::abs(a), std::abs(b));
+  for (int i = 0; i < kPadded; ++i) {
+    const double a = p.edge[i], b = p.edge[std::min(i + 1, kPadded - 1)];
+    const double inner = std::max({a, -b, 0.0}), outer = std::max(std::abs(a), std::abs(b));
     p.nearest[i] = inner * inner;
     p.farthest[i] = outer * outer;
   }
@@ -59,72 +65,109 @@ Planes planes_of(double lo, double hi) {
   return p;
 }
 
+// W / 2 for all pairs of planes of two axes.
 struct PairTable {
-  double half[kBlock + 1][kBlock + 1];  // W / 2
-
-  PairTable(const Planes& a, const Planes& b) {
-    for (int i = 0; i <= a.cells; ++i)
-      for (int j = 0; j <= b.cells; ++j) half[i][j] = 0.5 * ball_wedge(std::abs(a.u[i]), std::abs(b.u[j]));
-  }
+  double half[kBlock + 1][kPadded];
 };
 
-// Difference over y and z of F on the plane x = u_i: what the cells to its left and right share.
-void plane_difference(const Planes& x, int i, const Planes& y, const Planes& z, const PairTable& xy,
-                      const PairTable& yz, const PairTable& xz, double* difference) {
-  double corner[2][kBlock + 1];
-  for (int j = 0; j <= y.cells; ++j) {
-    double* row = corner[j % 2];
-    const double* previous = corner[(j + 1) % 2];
-    const double square = x.square[i] + y.square[j], area = x.u[i] * y.u[j], sign = x.sign[i] * y.sign[j];
-    const double outside = std::numbers::pi / 6 - (x.cap[i] + y.cap[j]) + xy.half[i][j];
-    for (int k = 0; k <= z.cells; ++k) {
-      const double beyond = outside - z.cap[k] + (yz.half[j][k] + xz.half[i][k]);
-      row[k] = square + z.square[k] <= 1 ? area * z.u[k] : sign * z.sign[k] * beyond;
+// Fills tables: the pairs of planes that meet inside the ball are few (some 13 for a sphere of the cells'
+// size), so they are gathered first and worked on in one go.
+class PairTables {
+ public:
+  PairTable xy, yz, xz;
+
+  PairTables(const Planes& x, const Planes& y, const Planes& z) {
+    gather(x, y, xy);
+    gather(y, z, yz);
+    gather(x, z, xz);
+    double w[kMost];
+    for (int p = 0; p < count_; ++p) w[p] = 0.5 * ball_wedge(a_[p], b_[p]);
+    for (int p = 0; p < count_; ++p) *to_[p] = w[p];
+  }
+
+ private:
+  static constexpr int kMost = 3 * (kBlock + 1) * (kBlock + 1);
+
+  void gather(const Planes& a, const Planes& b, PairTable& table) {
+    for (int i = 0; i <= a.cells; ++i) {
+      std::fill_n(table.half[i], kPadded, 0.0);
+      for (int j = 0; j <= b.cells; ++j) {
+        if (a.square[i] + b.square[j] >= 1) continue;
+        a_[count_] = std::abs(a.u[i]);
+        b_[count_] = std::abs(b.u[j]);
+        to_[count_++] = &table.half[i][j];
+      }
     }
-    if (j > 0)
-      for (int k = 0; k < z.cells; ++k)
-        *difference++ = (row[k + 1] - previous[k + 1]) - (row[k] - previous[k]);
+  }
+
+  int count_ = 0;
+  double a_[kMost], b_[kMost];
+  double* to_[kMost];
+};
+
+// F along the row of corners (x_i, y_j, all z).
+template <int Lanes>
+void corner_row(const Planes& x, int i, const Planes& y, int j, const Planes& z, const PairTables& w,
+                double* row) {
+  const double square = x.square[i] + y.square[j], area = x.u[i] * y.u[j], sign = x.sign[i] * y.sign[j];
+  const double outside = std::numbers::pi / 6 - (x.cap[i] + y.cap[j]) + w.xy.half[i][j];
+  const double *yz = w.yz.half[j], *xz = w.xz.half[i];
+  for (int k = 0; k < Lanes; ++k) {
+    const double beyond = outside - z.cap[k] + (yz[k] + xz[k]);
+    row[k] = square + z.square[k] <= 1 ? area * z.u[k] : sign * z.sign[k] * beyond;
   }
 }
 
-// Cells with none of the sphere's surface in them are 0 or `full`; of the others, surface(i, j, k, &value).
-template <class Surface>
-void for_cells(const Planes& x, const Planes& y, const Planes& z, double full, double* out,
-               const Surface& surface) {
+// Volumes of all cells by mixed differences of F, with rows of `Lanes` corners worked on at once.
+template <int Lanes>
+void closed_form(const Planes& x, const Planes& y, const Planes& z, double scale, double full, double* out) {
+  const PairTables w(x, y, z);
+  double corner[2][Lanes], face[2][kBlock][Lanes];
+  for (int i = 0; i <= x.cells; ++i)
+    for (int j = 0; j <= y.cells; ++j) {
+      const double* row = corner[j % 2];
+      const double* previous = corner[(j + 1) % 2];
+      corner_row<Lanes>(x, i, y, j, z, w, corner[j % 2]);
+      if (j == 0) continue;
+      double* after = face[i % 2][j - 1];
+      for (int k = 0; k + 1 < Lanes; ++k) after[k] = (row[k + 1] - previous[k + 1]) - (row[k] - previous[k]);
+      if (i == 0) continue;
+      const double* before = face[(i + 1) % 2][j - 1];
+      const double nearest = x.nearest[i - 1] + y.nearest[j - 1],
+                   farthest = x.farthest[i - 1] + y.farthest[j - 1];
+      double volume[Lanes];
+      for (int k = 0; k + 1 < Lanes; ++k) {
+        const double bounded = std::min(std::max((after[k] - before[k]) * scale, 0.0), full);
+        const double reached = nearest + z.nearest[k] >= 1 ? 0.0 : bounded;
+        volume[k] = farthest + z.farthest[k] <= 1 ? full : reached;
+      }
+      for (int k = 0; k < z.cells; ++k) *out++ = volume[k];
+    }
+}
+
+// The same for spheres that are large beside their cells: those that the surface passes, one by one.
+void large_sphere(const Planes& x, const Planes& y, const Planes& z, double scale, double full, double* out) {
   for (int i = 0; i < x.cells; ++i)
     for (int j = 0; j < y.cells; ++j)
       for (int k = 0; k < z.cells; ++k, ++out) {
-        if (x.nearest[i] + y.nearest[j] + z.nearest[k] >= 1)
+        if (x.nearest[i] + y.nearest[j] + z.nearest[k] >= 1) {
           *out = 0;
-        else if (x.farthest[i] + y.farthest[j] + z.farthest[k] <= 1)
+        } else if (x.farthest[i] + y.farthest[j] + z.farthest[k] <= 1) {
           *out = full;
-        else
-          surface(i, j, k, *out);
+        } else {
+          const Vec3d lo{x.edge[i], y.edge[j], z.edge[k]}, hi{x.edge[i + 1], y.edge[j + 1], z.edge[k + 1]};
+          *out = std::clamp(unit_ball_in_box(lo, hi) * scale, 0.0, full);
+        }
       }
 }
 
 // Volumes in all cells between the planes, times `scale`; a cell inside the ball is exactly `full`.
 void cell_volumes(const Planes& x, const Planes& y, const Planes& z, bool large, double scale, double full,
                   double* out) {
-  const auto bounded = [&](double unit_volume) { return std::clamp(unit_volume * scale, 0.0, full); };
-  if (large) {
-    for_cells(x, y, z, full, out, [&](int i, int j, int k, double& value) {
-      value = bounded(
-          unit_ball_in_box({x.edge[i], y.edge[j], z.edge[k]}, {x.edge[i + 1], y.edge[j + 1], z.edge[k + 1]}));
-    });
-    return;
-  }
-  const PairTable xy(x, y), yz(y, z), xz(x, z);
-  double plane[2][kBlock * kBlock];
-  const int cells = y.cells * z.cells;
-  plane_difference(x, 0, y, z, xy, yz, xz, plane[0]);
-  for (int i = 0; i < x.cells; ++i) {
-    const double* before = plane[i % 2];
-    double* after = plane[(i + 1) % 2];
-    plane_difference(x, i + 1, y, z, xy, yz, xz, after);
-    for (int c = 0; c < cells; ++c) out[i * cells + c] = after[c] - before[c];
-  }
-  for_cells(x, y, z, full, out, [&](int, int, int, double& value) { value = bounded(value); });
+  if (large) return large_sphere(x, y, z, scale, full, out);
+  if (z.cells < 4) return closed_form<4>(x, y, z, scale, full, out);
+  if (z.cells < 8) return closed_form<8>(x, y, z, scale, full, out);
+  closed_form<kPadded>(x, y, z, scale, full, out);
 }
 
 bool is_large(double radius, const Vec3d& edges) {

@@ -23,6 +23,7 @@
 // cells' radius go another way, overlap_large.h.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -30,6 +31,7 @@
 
 #include "base/shapes.h"
 #include "voxel/lattice.h"
+#include "voxel/quarter_angle.h"
 
 namespace interstice::voxel {
 
@@ -92,13 +94,11 @@ void for_each_overlap(const Lattice& lattice, const Vec3d& center, double radius
 /// cap(a) above, for a in [0, 1].
 inline double ball_cap(double a) { return std::numbers::pi / 3 * ((1 - a) * (1 - a) * (2 + a)); }
 
-/// W(a, b) above, for a, b in [0, 1].
+/// W(a, b) above, for a, b in [0, 1] with a^2 + b^2 <= 1.
 inline double ball_wedge(double a, double b) {
-  const double s2 = 1 - a * a - b * b;
-  if (s2 <= 0) return 0;
-  const double s = std::sqrt(s2);
-  return (2 * std::atan2(s, a * b) - a * (3 - a * a) * std::atan2(s, b) - b * (3 - b * b) * std::atan2(s, a) +
-          2 * a * b * s) /
+  const double s = std::sqrt(std::max(0.0, 1 - a * a - b * b));
+  return (2 * quarter_angle(s, a * b) - a * (3 - a * a) * quarter_angle(s, b) -
+          b * (3 - b * b) * quarter_angle(s, a) + 2 * a * b * s) /
          3;
 }
 

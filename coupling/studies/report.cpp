@@ -94,7 +94,8 @@ Sentence sentence(const Quantity& q, const Labels& labels) {
                    : parts[0] == "end" ? fmt::format("Field '{}' at the end", parts[1])
                                        : fmt::format("Field '{}' after {}", parts[1], parts[0]);
   what[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(what[0])));
-  result.text = fmt::format("- {}{}: {}.\n", what, line ? fmt::format(" {}", spoken(parts[3])) : std::string(), values(q, labels));
+  const std::string where = line ? fmt::format(" {}", spoken(parts[3])) : "";
+  result.text = fmt::format("- {}{}: {}.\n", what, where, values(q, labels));
   return result;
 }
 

@@ -171,7 +171,7 @@ TEST_F(Run, RefusesWhatIsWrongWithOneLineAndWritesNothing) {
   refused("--set 'materials.powder.density=\"8200 kg\"'", "materials.powder.density");
   refused("--set materials.powder.density=8200", "kg/m^3");
   refused("--set 'materials.powder.densty=\"8200 kg/m^3\"'", "density");
-  refused("--set 'time.step=\"1 us\"'", "0.2");
+  refused("--set 'time.step=\"2 us\"'", "0.2");  // 0.28 of the collision time
   refused("--precision mixed", "mixed");
   refused("--backend cuda", "cuda");
   refused("--threads -3", "--threads");
@@ -192,7 +192,7 @@ TEST_F(Run, DoesNotOverwriteUnasked) {
 
 TEST_F(Run, AnUnstableStepEndsWithStatusThree) {
   EXPECT_EQ(call("run " + kScene + " -o " + at("run") + kSmall +
-                 "--set 'time.step=\"20 us\"' --set time.allow_unstable=true --set "
+                 "--set 'time.step=\"6 us\"' --set time.allow_unstable=true --set "
                  "'particles.powder.insert.velocity=[\"0 "
                  "m/s\",\"0 m/s\",\"-0.5 m/s\"]'"),
             3)
