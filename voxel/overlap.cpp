@@ -165,7 +165,6 @@ void large_sphere(const Planes& x, const Planes& y, const Planes& z, double scal
 void cell_volumes(const Planes& x, const Planes& y, const Planes& z, bool large, double scale, double full,
                   double* out) {
   if (large) return large_sphere(x, y, z, scale, full, out);
-  if (z.cells < 4) return closed_form<4>(x, y, z, scale, full, out);
   if (z.cells < 8) return closed_form<8>(x, y, z, scale, full, out);
   closed_form<kPadded>(x, y, z, scale, full, out);
 }

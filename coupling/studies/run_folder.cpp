@@ -27,7 +27,8 @@ nlohmann::json read_json(const fs::path& path) {
   }
 }
 
-PhaseSpan phase_from(const fs::path& file, const nlohmann::json& entry, std::size_t index) {
+/// `now`: the run's own time, where a phase ends that was still going on when the run stopped.
+PhaseSpan phase_from(const fs::path& file, const nlohmann::json& entry, std::size_t index, double now) {
   const auto number = [&](const char* key) {
     const auto at = entry.find(key);
     if (at == entry.end() || !at->is_number()) {
@@ -39,6 +40,8 @@ PhaseSpan phase_from(const fs::path& file, const nlohmann::json& entry, std::siz
     throw InputError(fmt::format("{}: phases[{}].name: missing; a text is wanted", file.string(), index));
   }
   PhaseSpan phase{entry["name"].get<std::string>(), number("start_s"), number("end_s")};
+  const auto ended = entry.find("ended_by");
+  if (ended != entry.end() && ended->is_string() && ended->get<std::string>().empty()) phase.end = now;
   if (!(phase.start <= phase.end)) {
     throw InputError(fmt::format("{}: phases[{}]: it ends ({} s) before it starts ({} s)", file.string(),
                                  index, phase.end, phase.start));
@@ -66,7 +69,9 @@ void read_info(RunFolder& run) {
     throw InputError(
         fmt::format("{}: phases: missing; a list of {{name, start_s, end_s}} is wanted", file.string()));
   }
-  for (const auto& entry : info["phases"]) run.phases.push_back(phase_from(file, entry, run.phases.size()));
+  for (const auto& entry : info["phases"]) {
+    run.phases.push_back(phase_from(file, entry, run.phases.size(), number("time_s").value_or(0)));
+  }
 }
 
 FieldRecord read_field(const fs::path& fields, const std::string& name) {

@@ -207,6 +207,18 @@ TEST_F(CompareRuns, RunsWithoutFieldsAndAHalfWrittenRowAreFine) {
   EXPECT_NE(studies::report(comparison).find("field 'layer' is not in static"), std::string::npos);
 }
 
+TEST_F(CompareRuns, APhaseThatWasStillGoingOnReachesAsFarAsTheRun) {
+  compare({}, {});
+  change("b/run.json", R"("start_s": 0.01, "end_s": 0.02)", R"("start_s": 0.01, "end_s": 0, "ended_by": "")");
+  change("b/run.json", R"("exit_reason": "done")", R"("exit_reason": "time limit", "time_s": 0.015)");
+  const auto comparison = again();
+  for (const auto& q : comparison.quantities) {
+    if (q.name == "compact/duration_s") EXPECT_NEAR(q.b, 0.005, 1e-15);
+  }
+  EXPECT_NE(studies::report(comparison).find("compactors did not come to its end: time limit"),
+            std::string::npos);
+}
+
 TEST_F(CompareRuns, AMissingFolderOrFileIsNamed) {
   EXPECT_NE(error().find("a: no such folder"), std::string::npos);
   EXPECT_NE(error().find("b: no such folder"), std::string::npos);  // both faults at once
