@@ -1,0 +1,253 @@
+// `interstice voids` from the outside: what it writes, what it says, and its exit status.
+#include <gtest/gtest.h>
+#include <openvdb/io/File.h>
+#include <openvdb/openvdb.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "coupling/io/particle_reader.h"
+#include "tests/coupling/io/vti_decoding.h"
+
+namespace interstice::testing {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::json;
+
+std::string slurp(const fs::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+struct Outcome {
+  int status = -1;
+  std::string out, err;
+};
+
+class Voids : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
+    folder_ = fs::temp_directory_path() /
+              ("interstice_voids_" + std::string(test->name()) + std::to_string(::getpid()));
+    fs::create_directories(folder_);
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  static std::string sample(const std::string& name) { return INTERSTICE_SOURCE_DIR "/data/samples/" + name; }
+
+  Outcome call(const std::string& arguments) const {
+    const std::string command = std::string(INTERSTICE_COMMAND) + " voids " + arguments + " >'" +
+                                (folder_ / "stdout").string() + "' 2>'" + (folder_ / "stderr").string() + "'";
+    const int status = std::system(command.c_str());
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, slurp(folder_ / "stdout"),
+            slurp(folder_ / "stderr")};
+  }
+  std::string out() const { return (folder_ / "out").string(); }
+  std::string to_out() const { return " -o " + out() + " --no-figures "; }
+
+  // Refused: status 2, one line that says what, and nothing written.
+  void expect_refused(const std::string& arguments, const std::string& what) const {
+    const Outcome outcome = call(arguments + to_out());
+    EXPECT_EQ(outcome.status, 2) << arguments << "\n" << outcome.err;
+    EXPECT_NE(outcome.err.find(what), std::string::npos) << arguments << "\n" << outcome.err;
+    EXPECT_EQ(outcome.out, "") << arguments;
+    EXPECT_FALSE(fs::exists(out())) << arguments;
+  }
+
+  fs::path folder_;
+};
+
+double sphere_volume(const std::string& sample_path, std::int64_t frame_number) {
+  const auto reader = io::open_particles(sample_path, {});
+  io::ParticleFrame frame;
+  for (std::int64_t i = 0; i <= frame_number; ++i) reader->next(frame);
+  long double sum = 0;
+  for (const double r : frame.radius) sum += static_cast<long double>(r) * r * r;
+  return static_cast<double>(4 * 3.14159265358979323846264338327950288L / 3 * sum);
+}
+
+TEST_F(Voids, LastFrameOfADumpWithAllFiles) {
+  const Outcome outcome =
+      call(sample("two-frames.dump") + to_out() +
+           "--voxel 10um --average 60um --slice x=0.5mm --slice z=50um --line y@x=0.5mm,z=0.1mm "
+           "--layers 0um,100um,8,4");
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const fs::path folder = fs::path(out()) / "two-frames";
+  for (const char* file : {"fields.vdb", "fields.vti", "slices/x=0.0005.csv", "slices/z=5e-05.csv",
+                           "lines/y@x=0.0005,z=0.0001.csv", "layers.csv", "profile_x.csv", "summary.json"}) {
+    EXPECT_TRUE(fs::exists(folder / file)) << file;
+  }
+  const Json s = Json::parse(slurp(folder / "summary.json"));
+  EXPECT_EQ(s["particles"], 150);
+  EXPECT_EQ(s["frame"], 1);
+  EXPECT_EQ(s["step"], 2000);
+  EXPECT_LE(s["relative_conservation_error"].get<double>(), 1e-12);
+  EXPECT_LE(s["written_conservation_error"].get<double>(), 1e-6);
+  const double truth = sphere_volume(sample("two-frames.dump"), 1);
+  EXPECT_NEAR(s["solid_volume_particles_m3"].get<double>(), truth, 1e-12 * truth);
+  EXPECT_NEAR(s["mass_kg"].get<double>(), 7800 * truth, 1e-11 * 7800 * truth);
+  EXPECT_GT(s["layer_mean"].get<double>(), 0);
+  EXPECT_NE(outcome.out.find("150 in the box"), std::string::npos);
+
+  openvdb::initialize();
+  openvdb::io::File vdb((folder / "fields.vdb").string());
+  vdb.open();
+  EXPECT_TRUE(vdb.hasGrid("void_fraction_averaged"));
+  EXPECT_EQ(vdb.getMetadata()->metaValue<double>("voxel"), 1e-5);
+  const Vti vti(folder / "fields.vti");
+  double sum = 0;
+  for (const float v : vti.array("solid_fraction")) sum += static_cast<double>(v);
+  EXPECT_NEAR(sum * 1e-15, truth, 1e-6 * truth);
+}
+
+TEST_F(Voids, AllFramesEachInAFolderAndASeries) {
+  const Outcome outcome =
+      call(sample("two-frames-gz.dump.gz") + to_out() + "--voxel 20um --frame all --json --quiet");
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const fs::path folder = fs::path(out()) / "two-frames-gz";
+  EXPECT_TRUE(fs::exists(folder / "frame_000000/summary.json"));
+  EXPECT_TRUE(fs::exists(folder / "frame_000001/fields.vdb"));
+  EXPECT_NE(slurp(folder / "fields.pvd").find("file=\"frame_000001/fields.vti\""), std::string::npos);
+  const Json all = Json::parse(outcome.out);
+  ASSERT_EQ(all["results"].size(), 2u);
+  EXPECT_EQ(all["results"][1]["frame"], 1);
+  EXPECT_EQ(outcome.err, "");
+}
+
+TEST_F(Voids, SeveralInputsOfSeveralKindsAgree) {
+  const Outcome outcome =
+      call(sample("two-frames.dump") + " " + sample("micrometres.csv") + " " + sample("yade.txt") + to_out() +
+           "--voxel 20um --frame 0 --json --density 7800kg/m^3");
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const Json all = Json::parse(outcome.out)["results"];
+  ASSERT_EQ(all.size(), 3u);
+  const double volume = all[0]["solid_volume_field_m3"];
+  for (const auto& one : all) {
+    EXPECT_NEAR(one["solid_volume_field_m3"].get<double>(), volume, 1e-12 * volume);
+    EXPECT_NEAR(one["mass_kg"].get<double>(), 7800 * volume, 1e-11 * 7800 * volume);
+  }
+}
+
+TEST_F(Voids, ABoxThatIsNoMultipleIsExtendedUpwardAndSaidSo) {
+  const Outcome outcome =
+      call(sample("yade.txt") + to_out() + "--voxel 30um --box 0mm,1mm,0mm,0.5mm,0mm,0.4mm --json");
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const Json s = Json::parse(outcome.out);
+  EXPECT_EQ(s["shape"], Json::array({34, 17, 14}));
+  EXPECT_TRUE(s["box_extended"].get<bool>());
+  EXPECT_NEAR(s["box_m"][1].get<double>(), 1.02e-3, 1e-15);
+}
+
+TEST_F(Voids, NegativeCoordinatesAndOtherMethods) {
+  const std::string box = "--voxel 20um --box -0.1mm,1mm,-0.1mm,0.5mm,-0.1mm,0.4mm --json ";
+  const double truth = sphere_volume(sample("yade.txt"), 0);
+  for (const char* method : {"exact", "subsample:4", "centre"}) {
+    const Outcome outcome =
+        call(sample("yade.txt") + " -o " + out() + method + " --no-figures --method " + method + " " + box);
+    ASSERT_EQ(outcome.status, 0) << outcome.err;
+    const Json s = Json::parse(outcome.out);
+    EXPECT_EQ(s["method"], method);
+    EXPECT_NEAR(s["solid_volume_field_m3"].get<double>(), truth, 0.05 * truth);
+  }
+}
+
+TEST_F(Voids, PeriodicBoxKeepsEveryGrainWhole) {
+  // Half the box along x: grains across the faces come back in from the other side.
+  const Outcome outcome = call(sample("yade.txt") + to_out() +
+                               "--voxel 20um --box 0mm,0.5mm,0mm,0.5mm,-0.02mm,0.5mm --periodic xy --json");
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const double truth = sphere_volume(sample("yade.txt"), 0);
+  EXPECT_NEAR(Json::parse(outcome.out)["solid_volume_particles_m3"].get<double>(), truth, 1e-12 * truth);
+}
+
+TEST_F(Voids, UnitOfLengthAndColumnsByOtherNames) {
+  std::ofstream(folder_ / "a.csv") << "px,py,pz,size\n100,100,100,20\n200,100,100,30\n";
+  const Outcome outcome = call((folder_ / "a.csv").string() + to_out() +
+                               "--voxel 10um --length-unit um --columns x=px,y=py,z=pz,radius=size --json");
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_EQ(outcome.err, "");
+  const double truth = 4e-18 * std::acos(-1.0) / 3 * (20 * 20 * 20 + 30 * 30 * 30);
+  EXPECT_NEAR(Json::parse(outcome.out)["solid_volume_field_m3"].get<double>(), truth, 1e-12 * truth);
+}
+
+TEST_F(Voids, WrongUseIsRefusedBeforeAnythingIsWritten) {
+  const std::string dump = sample("two-frames.dump") + " --voxel 20um ";
+  expect_refused(sample("two-frames.dump"), "--voxel");
+  expect_refused(sample("two-frames.dump") + " --voxel 20", "--voxel");
+  expect_refused(sample("two-frames.dump") + " --voxel 0um", "not positive");
+  expect_refused(dump + "--box 0mm,1mm", "--box");
+  expect_refused(dump + "--box 1mm,0mm,0mm,1mm,0mm,1mm", "--box");
+  expect_refused(dump + "--slice q=1mm", "--slice");
+  expect_refused(dump + "--slice x=1m", "--slice: x = 1 m is outside the box");
+  expect_refused(dump + "--line y@x=9,z=1mm", "--line");
+  expect_refused(dump + "--line y@x=9mm,z=0.1mm", "--line: x = 9 mm is outside the box");
+  expect_refused(dump + "--layers 0um,70um,40", "--layers");
+  expect_refused(dump + "--layers 70um,0um,4,4", "--layers");
+  expect_refused(dump + "--method divided", "not in this version");
+  expect_refused(dump + "--method subsample:0", "--method");
+  expect_refused(dump + "--overlap union", "not in this version");
+  expect_refused(dump + "--walls tool.stl@mm", "not in this version");
+  expect_refused(dump + "--frame 2", "0 to 1");
+  expect_refused(dump + "--frame first", "--frame");
+  expect_refused(dump + "--periodic w", "--periodic");
+  expect_refused(dump + "--periodic x --box 0mm,1.01mm,0mm,1mm,0mm,1mm", "does not divide the period");
+  expect_refused(dump + "--columns radius", "--columns");
+  expect_refused(dump + "--columns radius=none", "no such column");
+  expect_refused(dump + "--density 7800", "--density");
+  expect_refused(dump + "--length-unit parsec", "--length-unit");
+  expect_refused(dump + "--length-unit m --voxel-size 3", "--voxel-size");
+  expect_refused(dump + sample("no-such-file.dump"), "no-such-file.dump");
+  expect_refused(sample("two-frames.dump") + " --voxel 1pm", "larger voxel");
+  expect_refused(sample("two-frames.dump") + " --voxel 1nm", "this machine has");
+}
+
+TEST_F(Voids, AllErrorsAreReported) {
+  const Outcome outcome = call(sample("yade.txt") + to_out() + "--voxel 20 --slice q=1mm --frame never");
+  EXPECT_EQ(outcome.status, 2);
+  for (const char* key : {"--voxel", "--slice", "--frame"})
+    EXPECT_NE(outcome.err.find(key), std::string::npos) << key;
+}
+
+TEST_F(Voids, TwoInputsOfOneStemAreAnError) {
+  fs::copy(sample("yade.txt"), folder_ / "yade.csv");
+  expect_refused(sample("yade.txt") + " " + (folder_ / "yade.csv").string() + " --voxel 20um",
+                 "same folder `yade`");
+}
+
+TEST_F(Voids, ACutDumpIsRefusedButItsWholeFramesCanBeRead) {
+  const std::string text = slurp(sample("two-frames.dump"));
+  std::ofstream(folder_ / "cut.dump") << text.substr(0, text.size() - 300);
+  const std::string cut = (folder_ / "cut.dump").string() + " --voxel 20um ";
+  expect_refused(cut, "frame 0 is whole");
+  expect_refused(cut + "--frame all", "frame 0 is whole");
+  EXPECT_EQ(call(cut + to_out() + "--frame 0").status, 0);
+}
+
+TEST_F(Voids, ResultsAreReplacedOnlyWhenAskedTo) {
+  const std::string dump = sample("two-frames.dump") + to_out() + "--voxel 20um ";
+  ASSERT_EQ(call(dump + "--slice x=0.5mm").status, 0);
+  const Outcome refused = call(dump);
+  EXPECT_EQ(refused.status, 2);
+  EXPECT_NE(refused.err.find("--overwrite"), std::string::npos);
+  EXPECT_EQ(call(dump + "--overwrite").status, 0);
+  EXPECT_FALSE(fs::exists(fs::path(out()) / "two-frames/slices"));
+}
+
+TEST_F(Voids, SameBitsForAnyNumberOfThreads) {
+  const std::string dump = sample("two-frames.dump") + " --voxel 5um --average 60um --no-figures --threads ";
+  ASSERT_EQ(call(dump + "1 -o " + out() + "1").status, 0);
+  ASSERT_EQ(call(dump + "2 -o " + out() + "2").status, 0);
+  EXPECT_EQ(slurp(out() + "1/two-frames/fields.vti"), slurp(out() + "2/two-frames/fields.vti"));
+}
+
+}  // namespace
+}  // namespace interstice::testing
