@@ -132,7 +132,7 @@ Bed make_bed(const BenchArguments& a) {
   sizes.mean = 39.4e-6, sizes.sd = 10.46e-6, sizes.min = 5e-6, sizes.max = 65e-6;
   std::vector<double> radii = scene::sample_diameters(sizes, 972, 1, 0);
   for (double& r : radii) r *= a.equal_sizes ? 20e-6 / r : 0.5;
-  std::vector<dem::NewGrain> cell = dem::pack_in_cell(radii, 0.25e-3, 0.5e-3 / 3, 0.58, 1);
+  std::vector<dem::NewGrain> cell = dem::pack_in_cell(radii, 0.25e-3, 0.5e-3 / 3, 0.62, 1);
   const Vec3d size{0.25e-3, 0.5e-3 / 3, 1.8e-3};
   settle(cell, size, !a.no_cohesion);
   return tiled(cell, size, 12, 3);
