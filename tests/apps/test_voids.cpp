@@ -14,6 +14,7 @@
 #include <string>
 
 #include "coupling/io/particle_reader.h"
+#include "coupling/io/trajectory.h"
 #include "tests/coupling/io/vti_decoding.h"
 
 namespace interstice::testing {
@@ -177,6 +178,26 @@ TEST_F(Voids, UnitOfLengthAndColumnsByOtherNames) {
   EXPECT_EQ(outcome.err, "");
   const double truth = 4e-18 * std::acos(-1.0) / 3 * (20 * 20 * 20 + 30 * 30 * 30);
   EXPECT_NEAR(Json::parse(outcome.out)["solid_volume_field_m3"].get<double>(), truth, 1e-12 * truth);
+}
+
+TEST_F(Voids, WallsOfATrajectoryAreNeitherPowderNorVoid) {
+  io::ParticleFrame frame;
+  frame.time = 0.25;
+  frame.id = {1};
+  frame.x = frame.y = {5e-5};
+  frame.z = frame.radius = {2e-5};
+  frame.walls = {{"floor", Plane{{0, 0, 0}, {0, 0, 1}}}};
+  io::TrajectoryWriter::create(folder_ / "run.h5part").append(frame);
+  const Outcome outcome = call((folder_ / "run.h5part").string() + to_out() +
+                               "--voxel 10um --box 0um,100um,0um,100um,-50um,50um --json");
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const Json s = Json::parse(outcome.out);
+  EXPECT_EQ(s["kind"], "H5Part");
+  EXPECT_EQ(s["time_s"], 0.25);
+  EXPECT_NEAR(s["available_volume_m3"].get<double>(), 0.5e-12, 1e-24);
+  const double volume = 4 * std::acos(-1.0) / 3 * std::pow(2e-5, 3);
+  EXPECT_NEAR(s["solid_fraction_mean"].get<double>(), volume / 0.5e-12, 1e-12);
+  EXPECT_TRUE(Vti(fs::path(out()) / "run/fields.vti").has("available_fraction"));
 }
 
 TEST_F(Voids, WrongUseIsRefusedBeforeAnythingIsWritten) {

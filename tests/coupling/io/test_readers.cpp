@@ -1,4 +1,5 @@
 // Good particle files of every kind that is read.
+#include "coupling/io/trajectory.h"
 #include "reader_testing.h"
 
 namespace interstice::io::testing {
@@ -181,6 +182,35 @@ TEST_F(Readers, YadeTextWithoutAnyHeader) {
   const auto frames = read_all(path);
   ASSERT_EQ(frames[0].size(), 2u);
   EXPECT_DOUBLE_EQ(frames[0].radius[1], 5e-5);
+}
+
+TEST_F(Readers, TrajectoryComesWithItsWallsSortedById) {
+  ParticleFrame frame;
+  frame.time = 0.5;
+  frame.id = {2, 1};
+  frame.x = {2e-4, 1e-4};
+  frame.y = frame.z = {0, 0};
+  frame.radius = {2e-5, 1e-5};
+  frame.walls = {{"floor", Plane{{0, 0, 0}, {0, 0, 1}}}, {"blade", Box{{0, 0, 0}, {1, 2, 3}}}};
+  auto writer = TrajectoryWriter::create(folder_ / "a.h5part");
+  writer.append(frame);
+  frame.time = 1;
+  writer.append(frame);
+
+  const auto reader = open_particles(folder_ / "a.h5part", {});
+  EXPECT_EQ(reader->kind(), "H5Part");
+  EXPECT_EQ(reader->frames(), 2);
+  EXPECT_TRUE(reader->skip());
+  ParticleFrame read;
+  ASSERT_TRUE(reader->next(read));
+  EXPECT_FALSE(reader->next(frame));
+  EXPECT_EQ(read.time, 1);
+  EXPECT_EQ(read.id, (std::vector<std::int64_t>{1, 2}));
+  EXPECT_EQ(read.x, (std::vector<double>{1e-4, 2e-4}));
+  EXPECT_EQ(read.radius, (std::vector<double>{1e-5, 2e-5}));
+  ASSERT_EQ(read.walls.size(), 2u);
+  EXPECT_EQ(read.walls[1].name, "blade");
+  EXPECT_EQ(std::get<Box>(read.walls[1].shape), (Box{{0, 0, 0}, {1, 2, 3}}));
 }
 
 TEST_F(Readers, SizesOfNoPowderAreWarnedOf) {
