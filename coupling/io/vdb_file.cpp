@@ -3,27 +3,11 @@
 #include <openvdb/openvdb.h>
 
 #include <cmath>
-#include <memory>
 
 #include "coupling/io/atomic_file.h"
 
 namespace interstice::io {
 namespace {
-
-// A grid as io::File can write it: it copies each grid for the sake of its metadata, and OpenVDB 10 refuses
-// to copy the transform of a voxel below 14.4 um (its cube counts as zero). Here the copy shares the
-// transform.
-class WritableGrid : public openvdb::FloatGrid {
- public:
-  explicit WritableGrid(const openvdb::FloatGrid::Ptr& grid) : openvdb::FloatGrid(grid->treePtr()) {
-    setTransform(grid->transformPtr());
-    for (auto it = grid->beginMeta(); it != grid->endMeta(); ++it) insertMeta(it->first, *it->second);
-  }
-  openvdb::GridBase::Ptr copyGrid() override {
-    return openvdb::ConstPtrCast<openvdb::FloatGrid>(copyReplacingMetadata(*this));
-  }
-  openvdb::GridBase::ConstPtr copyGrid() const override { return copyReplacingMetadata(*this); }
-};
 
 // What grids do not know by themselves. Box, voxel, method and units they bring along.
 void add_origin(openvdb::MetaMap& meta, const FieldFilesRequest& request) {
@@ -53,7 +37,7 @@ void write_vdb(const std::filesystem::path& path, const voxel::Field& field,
   openvdb::GridCPtrVec grids;
   const auto add = [&](const openvdb::FloatGrid::Ptr& grid, const char* name) {
     if (!grid) return;
-    const auto named = std::make_shared<WritableGrid>(grid);
+    const auto named = grid->copyGrid();  // shares the tree; the name and metadata are its own
     named->setName(name);
     add_origin(*named, request);
     grids.push_back(named);

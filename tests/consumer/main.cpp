@@ -1,4 +1,5 @@
-// One grain falls onto a floor; its volume is found in the field. Exit status 0 when both are as they must be.
+// One grain falls onto a floor; its volume is found in the field. Exit status 0 when both are as they must
+// be.
 #include <cmath>
 #include <cstdio>
 #include <vector>
@@ -28,7 +29,8 @@ int main() {
       {1, grains.x.data(), grains.y.data(), grains.z.data(), grains.radius.data(), nullptr}, {}, request);
   const double volume = 4.0 / 3 * M_PI * std::pow(20e-6, 3);
   const bool landed = std::fabs(grains.z[0] - 20e-6) < 1e-7;
-  const bool counted = std::fabs(field.sums.solid_volume_field / volume - 1) < 1e-2;  // a little of it is in the floor
+  const bool counted =
+      std::fabs(field.sums.solid_volume_field / volume - 1) < 1e-2;  // a little of it is in the floor
   std::printf("z = %g m, solid volume = %g of %g m^3\n", grains.z[0], field.sums.solid_volume_field, volume);
   return landed && counted ? 0 : 1;
 }
