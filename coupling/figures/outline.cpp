@@ -58,10 +58,16 @@ void keep(std::vector<Outline>& outlines, Outline outline, const Extent& extent)
   if (outline.size() >= 3 && area(outline) > least) outlines.push_back(std::move(outline));
 }
 
-bool mostly_solid(const std::vector<Outline>& outlines, const Extent& strip) {
+double solid_share(const std::vector<Outline>& outlines, const Extent& strip) {
   double covered = 0;
   for (const auto& outline : outlines) covered += area(outline);
-  return covered > 0.5 * strip.width() * strip.height();
+  return std::min(1.0, covered / (strip.width() * strip.height()));
+}
+
+/// Whether most of what is open just inside a side is solid just outside it. (A wall that only runs on across
+/// the side closes nothing.)
+bool closes(double inside, double outside) {
+  return 1 - inside > 1e-6 && outside - inside > 0.5 * (1 - inside);
 }
 
 std::string path_of(const Outline& outline, Point scale) {
@@ -106,13 +112,15 @@ Extent widened_to_walls(const std::vector<io::WallPose>& walls, int axis, double
                         const Extent& extent, Point margin) {
   Extent result = extent;
   for (std::size_t k = 0; k < 2; ++k) {
-    Extent below = extent, above = extent;
-    below.lo[k] = extent.lo[k] - margin[k];
-    below.hi[k] = extent.lo[k];
-    above.lo[k] = extent.hi[k];
-    above.hi[k] = extent.hi[k] + margin[k];
-    if (mostly_solid(cut(walls, axis, at, axes, below), below)) result.lo[k] = below.lo[k];
-    if (mostly_solid(cut(walls, axis, at, axes, above), above)) result.hi[k] = above.hi[k];
+    const auto share = [&](double lo, double hi) {
+      Extent strip = extent;
+      strip.lo[k] = lo;
+      strip.hi[k] = hi;
+      return solid_share(cut(walls, axis, at, axes, strip), strip);
+    };
+    const double lo = extent.lo[k], hi = extent.hi[k], by = margin[k];
+    if (closes(share(lo, lo + by), share(lo - by, lo))) result.lo[k] = lo - by;
+    if (closes(share(hi - by, hi), share(hi, hi + by))) result.hi[k] = hi + by;
   }
   return result;
 }
