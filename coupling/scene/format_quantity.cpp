@@ -30,6 +30,7 @@ bool takes_prefix(Dimension dimension, double scale) {
     case Dimension::pressure:
     case Dimension::energy_density:
     case Dimension::surface_energy:
+    case Dimension::stiffness:
       return true;
     default:
       return scale == 1;

@@ -1,4 +1,4 @@
-// The sections that say what space, materials and contacts are like.
+// The sections that say what space and materials are like.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -44,44 +44,6 @@ void read_wall_material(const TableReader& table, Domain& domain) {
   }
 }
 
-/// The words of the three optional laws; empty where the word was wrong, so that nothing follows from it.
-struct LawWords {
-  std::string tangential, rolling, cohesion;
-};
-
-/// A pair's parameter that only one law uses: due with that law, refused without any.
-double read_law_parameter(const TableReader& table, std::string_view key, std::string_view law,
-                          const std::string& word) {
-  const bool none = word == "none";
-  const auto words = split_words(section("contact").find(law)->words);
-  if (none && table.has(key)) {
-    table.error(key, fmt::format("is given although contact.{} is \"none\"", law),
-                fmt::format("it is allowed with contact.{} = \"{}\"", law, words.back()),
-                "name that law or drop this key");
-    return 0;
-  }
-  if (!none && !word.empty() && !table.has(key))
-    table.error(key, "is missing", fmt::format("contact.{} needs it for every pair", law),
-                fmt::format("add {} = ..., or set contact.{} = \"none\"", key, law));
-  return table.has(key) ? table.quantity(key) : 0;
-}
-
-ContactPair read_pair(const TableReader& table, const LawWords& laws) {
-  ContactPair pair;
-  const auto names = table.texts("materials");
-  if (names.size() == 2)
-    pair.materials = {names[0], names[1]};
-  else if (table.has("materials"))
-    table.error("materials", fmt::format("has {} names", names.size()), "two materials meet in a contact",
-                "write for instance materials = [\"powder\", \"steel\"]");
-  pair.restitution = table.quantity("restitution");
-  pair.friction = read_law_parameter(table, "friction", "tangential", laws.tangential);
-  pair.rolling_friction = read_law_parameter(table, "rolling_friction", "rolling", laws.rolling);
-  pair.cohesion_energy_density =
-      read_law_parameter(table, "cohesion_energy_density", "cohesion", laws.cohesion);
-  return pair;
-}
-
 }  // namespace
 
 Domain read_domain(const Value* value, const Place& around, Problems& problems) {
@@ -121,25 +83,6 @@ std::vector<Material> read_materials(const Value* value, Problems& problems) {
                          table.quantity("poisson_ratio")});
   }
   return materials;
-}
-
-Contact read_contact(const Value* value, const Place& around, Problems& problems) {
-  const TableReader table(value, section("contact"), "contact", around, problems);
-  Contact contact;
-  if (!table) return contact;
-  table.choice("normal");
-  contact.damping = table.choice("damping") == "clipped" ? Damping::clipped : Damping::tension;
-  const LawWords laws{table.choice("tangential"), table.choice("rolling"), table.choice("cohesion")};
-  contact.tangential = laws.tangential == "mindlin" ? TangentialLaw::mindlin : TangentialLaw::none;
-  contact.rolling = laws.rolling == "cdt" ? RollingLaw::cdt : RollingLaw::none;
-  contact.cohesion = laws.cohesion == "sjkr" ? CohesionLaw::sjkr : CohesionLaw::none;
-  const auto pairs = table.tables("pair");
-  for (std::size_t i = 0; i < pairs.size(); ++i) {
-    const TableReader pair(pairs[i], section("contact.pair"), table.element_path("pair", i), table.place(),
-                           problems);
-    contact.pairs.push_back(pair ? read_pair(pair, laws) : ContactPair{});
-  }
-  return contact;
 }
 
 }  // namespace interstice::scene

@@ -8,6 +8,21 @@
 #include "coupling/scene/readers.h"
 
 namespace interstice::scene {
+namespace {
+
+Output read_output(const TableReader& table) {
+  Output output;
+  output.trajectory = table.quantity("trajectory");
+  output.series = table.quantity("series");
+  output.checkpoint = table.quantity("checkpoint");
+  output.energy = table.boolean("energy");
+  if (output.energy && output.series == 0)
+    table.error("energy", "is true, and there is no series to hold it",
+                "it is allowed with output.series above 0 s", "add series = \"1 ms\", or drop this key");
+  return output;
+}
+
+}  // namespace
 
 Scene read_scene(const std::string& path, const std::vector<std::string>& overrides,
                  std::vector<std::string>* warnings) {
@@ -36,7 +51,7 @@ Scene read_scene_text(std::string_view text, const std::string& source,
   scene.seed = static_cast<std::uint64_t>(time.integer("seed").value_or(1));
 
   const TableReader output(root.raw("output"), section("output"), "output", root.place(), problems);
-  scene.output = {output.quantity("trajectory"), output.quantity("series"), output.quantity("checkpoint")};
+  scene.output = read_output(output);
   scene.fields = read_fields(root);
 
   check_scene(scene, document, problems);

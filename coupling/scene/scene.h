@@ -12,11 +12,12 @@
 namespace interstice::scene {
 
 enum class Boundary { open, wall, periodic };
-enum class NormalLaw { hertz };
-enum class Damping { tension, clipped };  // may the dashpot make a separating contact attractive?
-enum class TangentialLaw { none, mindlin };
-enum class RollingLaw { none, cdt };
-enum class CohesionLaw { none, sjkr };
+enum class NormalLaw { hooke, hertz };
+enum class StiffnessRule { given, overlap, velocity };  // how hooke gets its stiffness
+enum class Damping { tension, clipped, clipped_uncorrected };
+enum class TangentialLaw { none, slider, mindlin };
+enum class RollingLaw { none, cdt, epsd2 };
+enum class CohesionLaw { none, sjkr, jkr, dmt, van_der_waals };
 
 struct Domain {
   Box box;
@@ -36,20 +37,30 @@ struct Material {
   bool operator==(const Material&) const = default;
 };
 
+/// Of these, a pair has those that its laws need; the others are zero.
 struct ContactPair {
   std::array<std::string, 2> materials;
   double restitution = 0;              // [-]
+  double stiffness = 0;                // hooke, rule given [N/m]
   double friction = 0;                 // [-]
   double rolling_friction = 0;         // [-]
-  double cohesion_energy_density = 0;  // [J/m^3]
+  double cohesion_energy_density = 0;  // sjkr [J/m^3]
+  double work_of_adhesion = 0;         // jkr, dmt: w = 2 gamma [J/m^2]
+  double hamaker_constant = 0;         // van_der_waals [J]
+  double cutoff = 0;                   // van_der_waals: below this separation the force is constant [m]
+  double range = 0;                    // van_der_waals: beyond this separation there is none [m]
 
   bool operator==(const ContactPair&) const = default;
 };
 
 struct Contact {
   NormalLaw normal = NormalLaw::hertz;
+  StiffnessRule stiffness_rule = StiffnessRule::given;
+  double design_speed = 0;   // rules overlap and velocity: of the fastest impact [m/s]
+  double overlap_limit = 0;  // rule overlap: the deepest overlap in diameters [-]
   Damping damping = Damping::tension;
   TangentialLaw tangential = TangentialLaw::none;
+  double slider_velocity = 0;  // slider: slip below which friction falls off in proportion [m/s]
   RollingLaw rolling = RollingLaw::none;
   CohesionLaw cohesion = CohesionLaw::none;
   std::vector<ContactPair> pairs;
@@ -153,6 +164,7 @@ struct Output {
   double trajectory = 0;  // interval [s]; 0: none
   double series = 0;      // interval [s]; 0: none
   double checkpoint = 0;  // interval of wall-clock seconds [s]; 0: only at the end and at a stop
+  bool energy = false;    // energies and what each mechanism dissipated, in the series
 
   bool operator==(const Output&) const = default;
 };

@@ -56,8 +56,9 @@ struct Key {
   std::string_view fallback{};  // what holds when it is not given, as one writes it; empty: nothing
   Range range{};
   Plausible plausible{};
-  std::string_view words{};  // choice: the words of this version, "none mindlin"
-  std::string_view later{};  // choice: words that are understood but not modelled in this version
+  std::string_view words{};  // choice: "none mindlin"; where an enum holds them, in its order
+  std::string_view law{};    // "cohesion jkr dmt": belongs to these words of this key of [contact] alone ...
+  bool due = false;          // ... and has to be given with them
   std::string_view about{};  // one line for the documentation
 };
 

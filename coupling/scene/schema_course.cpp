@@ -134,6 +134,10 @@ constexpr Key kOutput[] = {
      .range = not_negative("0 s means only at the end"),
      .about =
          "interval of checkpoint.h5, in time of the clock on the wall; 0 s: only at the end and at a stop"},
+    {.name = "energy",
+     .kind = Kind::boolean,
+     .fallback = "false",
+     .about = "columns of energy in series.csv: what there is, and what each mechanism took; needs `series`"},
 };
 
 constexpr Key kField[] = {

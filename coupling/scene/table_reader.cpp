@@ -284,7 +284,7 @@ std::string TableReader::text(std::string_view name) const {
 }
 
 std::string TableReader::checked_choice(const Value& value, const Key& key, const std::string& at) const {
-  const auto words = split_words(key.words), later = split_words(key.later);
+  const auto words = split_words(key.words);
   const std::string allowed = fmt::format("allowed: {}", listed(words));
   if (value.kind != Value::Kind::text) {
     problems_->error(value.place, at, fmt::format("is {}", noun(value.kind)), allowed,
@@ -292,11 +292,6 @@ std::string TableReader::checked_choice(const Value& value, const Key& key, cons
     return {};
   }
   if (std::find(words.begin(), words.end(), value.text) != words.end()) return value.text;
-  if (std::find(later.begin(), later.end(), value.text) != later.end()) {
-    problems_->error(value.place, at, fmt::format("\"{}\" is not in this version", value.text), allowed,
-                     "choose one of them");
-    return {};
-  }
   const std::string near = nearest(value.text, words);
   problems_->error(value.place, at, fmt::format("\"{}\" is unknown", value.text), allowed,
                    near.empty() ? "choose one of them" : fmt::format("did you mean \"{}\"?", near));

@@ -22,7 +22,7 @@ struct DimensionRow {
 };
 
 const DimensionRow& row(Dimension dimension) {
-  static const std::array<DimensionRow, 17> rows{{
+  static const std::array<DimensionRow, 18> rows{{
       {{0, 0, 0, 0}, {"a number without a unit", "", "0.3"}},
       {{0, 1, 0, 0}, {"a length", "m", "40 um"}},
       {{0, 2, 0, 0}, {"an area", "m^2", "1 mm^2"}},
@@ -34,10 +34,11 @@ const DimensionRow& row(Dimension dimension) {
       {{1, 0, 0, 0}, {"a mass", "kg", "1 mg"}},
       {{1, -3, 0, 0}, {"a density", "kg/m^3", "8200 kg/m^3"}},
       {{1, 1, -2, 0}, {"a force", "N", "1 uN"}},
-      {{1, 2, -2, 0}, {"an energy", "J", "1 nJ"}},
+      {{1, 2, -2, 0}, {"an energy", "J", "65 zJ"}},
       {{1, -1, -2, 0}, {"a pressure", "Pa", "1 GPa"}},
       {{1, -1, -2, 0}, {"an energy density", "J/m^3", "1 MJ/m^3"}},
       {{1, 0, -2, 0}, {"a surface energy", "J/m^2", "0.1 mJ/m^2"}},
+      {{1, 0, -2, 0}, {"a stiffness", "N/m", "1 kN/m"}},
       {{0, 0, 0, 1}, {"an angle", "rad", "30 deg"}},
       {{0, 0, -1, 1}, {"an angular velocity", "rad/s", "200 rpm"}},
   }};
@@ -53,12 +54,15 @@ struct Atom {
 };
 
 constexpr double kPi = std::numbers::pi;
-constexpr std::array<Atom, 15> kAtoms{{
+constexpr std::array<Atom, 18> kAtoms{{
     {"m", {0, 1, 0, 0}, 0, 1, true},
     {"g", {1, 0, 0, 0}, -3, 1, true},
     {"s", {0, 0, 1, 0}, 0, 1, true},
     {"N", {1, 1, -2, 0}, 0, 1, true},
+    {"dyn", {1, 1, -2, 0}, -5, 1, true},
     {"J", {1, 2, -2, 0}, 0, 1, true},
+    {"erg", {1, 2, -2, 0}, -7, 1, true},
+    {"eV", {1, 2, -2, 0}, -19, 1.602176634, true},  // exact since 2019
     {"Pa", {1, -1, -2, 0}, 0, 1, true},
     {"Hz", {0, 0, -1, 0}, 0, 1, true},
     {"rad", {0, 0, 0, 1}, 0, 1, true},

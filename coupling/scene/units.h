@@ -25,6 +25,7 @@ enum class Dimension {
   pressure,        // Young's modulus too
   energy_density,  // the same base units as a pressure; named apart for messages
   surface_energy,
+  stiffness,  // the same base units as a surface energy
   angle,
   angular_velocity,
 };

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "coupling/scene/format_quantity.h"
+#include "coupling/scene/schema.h"
 
 namespace interstice::scene {
 namespace {
@@ -73,25 +74,49 @@ void write_domain(Writer& out, const Domain& domain) {
   out.raw("gravity", vector(domain.gravity, Dimension::acceleration));
 }
 
-void write_contact(Writer& out, const Contact& contact) {
-  const bool sliding = contact.tangential != TangentialLaw::none,
-             rolling = contact.rolling != RollingLaw::none;
-  const bool cohesion = contact.cohesion != CohesionLaw::none;
-  out.header("contact");
-  out.text("normal", "hertz");
-  out.text("damping", contact.damping == Damping::clipped ? "clipped" : "tension");
-  out.text("tangential", sliding ? "mindlin" : "none");
-  out.text("rolling", rolling ? "cdt" : "none");
-  out.text("cohesion", cohesion ? "sjkr" : "none");
-  for (const ContactPair& pair : contact.pairs) {
-    out.element("contact.pair");
-    out.raw("materials", fmt::format("[{}, {}]", quoted(pair.materials[0]), quoted(pair.materials[1])));
-    out.quantity("restitution", pair.restitution, Dimension::dimensionless);
-    if (sliding) out.quantity("friction", pair.friction, Dimension::dimensionless);
-    if (rolling) out.quantity("rolling_friction", pair.rolling_friction, Dimension::dimensionless);
-    if (cohesion)
-      out.quantity("cohesion_energy_density", pair.cohesion_energy_density, Dimension::energy_density);
+/// What [contact] says for an enumerator: the words of its key stand in the order of the enum.
+template <class Law>
+void write_law(Writer& out, std::string_view key, Law law) {
+  out.text(key, split_words(section("contact").find(key)->words).at(static_cast<std::size_t>(law)));
+}
+
+void write_pair(Writer& out, const Contact& contact, const ContactPair& pair) {
+  constexpr Dimension plain = Dimension::dimensionless;
+  out.element("contact.pair");
+  out.raw("materials", fmt::format("[{}, {}]", quoted(pair.materials[0]), quoted(pair.materials[1])));
+  out.quantity("restitution", pair.restitution, plain);
+  if (contact.normal == NormalLaw::hooke && contact.stiffness_rule == StiffnessRule::given)
+    out.quantity("stiffness", pair.stiffness, Dimension::stiffness);
+  if (contact.tangential != TangentialLaw::none) out.quantity("friction", pair.friction, plain);
+  if (contact.rolling != RollingLaw::none) out.quantity("rolling_friction", pair.rolling_friction, plain);
+  if (contact.cohesion == CohesionLaw::sjkr)
+    out.quantity("cohesion_energy_density", pair.cohesion_energy_density, Dimension::energy_density);
+  if (contact.cohesion == CohesionLaw::jkr || contact.cohesion == CohesionLaw::dmt)
+    out.quantity("work_of_adhesion", pair.work_of_adhesion, Dimension::surface_energy);
+  if (contact.cohesion == CohesionLaw::van_der_waals) {
+    out.quantity("hamaker_constant", pair.hamaker_constant, Dimension::energy);
+    out.quantity("cutoff", pair.cutoff, Dimension::length);
+    out.quantity("range", pair.range, Dimension::length);
   }
+}
+
+void write_contact(Writer& out, const Contact& contact) {
+  out.header("contact");
+  write_law(out, "normal", contact.normal);
+  if (contact.normal == NormalLaw::hooke) {
+    write_law(out, "stiffness_rule", contact.stiffness_rule);
+    if (contact.stiffness_rule != StiffnessRule::given)
+      out.quantity("design_speed", contact.design_speed, Dimension::velocity);
+    if (contact.stiffness_rule == StiffnessRule::overlap)
+      out.quantity("overlap_limit", contact.overlap_limit, Dimension::dimensionless);
+  }
+  write_law(out, "damping", contact.damping);
+  write_law(out, "tangential", contact.tangential);
+  if (contact.tangential == TangentialLaw::slider)
+    out.quantity("slider_velocity", contact.slider_velocity, Dimension::velocity);
+  write_law(out, "rolling", contact.rolling);
+  write_law(out, "cohesion", contact.cohesion);
+  for (const ContactPair& pair : contact.pairs) write_pair(out, contact, pair);
 }
 
 void write_diameters(Writer& out, const Diameters& d) {
@@ -258,6 +283,7 @@ std::string resolved_toml(const Scene& scene) {
   out.quantity("trajectory", scene.output.trajectory, Dimension::time);
   out.quantity("series", scene.output.series, Dimension::time);
   out.quantity("checkpoint", scene.output.checkpoint, Dimension::time);
+  out.flag("energy", scene.output.energy);
   for (const Field& field : scene.fields) write_field(out, field);
   return out.take();
 }

@@ -94,6 +94,15 @@ inline std::string replaced(std::string text, std::string_view from, std::string
   return text.replace(at, from.size(), to);
 }
 
+/// The example with other laws of contact: `laws` in [contact], `parameters` in each of its two pairs.
+inline std::string with_contact(std::string_view laws, std::string_view parameters) {
+  const std::size_t from = kExampleScene.find("[contact]"), to = kExampleScene.find("[[particles]]");
+  std::string contact = "[contact]\n" + std::string(laws) + "\n";
+  for (const std::string pair : {"[\"powder\", \"powder\"]", "[\"steel\", \"powder\"]"})
+    contact += "[[contact.pair]]\nmaterials = " + pair + "\n" + std::string(parameters) + "\n";
+  return kExampleScene.substr(0, from) + contact + "\n" + kExampleScene.substr(to);
+}
+
 /// The line (from 1) on which `needle` first stands.
 inline int line_of(const std::string& text, std::string_view needle) {
   const std::size_t at = text.find(needle);

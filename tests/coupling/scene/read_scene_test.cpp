@@ -42,7 +42,11 @@ TEST(ReadScene, TheExampleSaysWhatItSays) {
   EXPECT_EQ(scene.contact.rolling, RollingLaw::cdt);
   EXPECT_EQ(scene.contact.cohesion, CohesionLaw::sjkr);
   ASSERT_EQ(scene.contact.pairs.size(), 2u);
-  EXPECT_EQ(scene.contact.pairs[1], (ContactPair{{"steel", "powder"}, 0.35, 0.9, 0.006, 1e4}));
+  EXPECT_EQ(scene.contact.pairs[1], (ContactPair{.materials = {"steel", "powder"},
+                                                 .restitution = 0.35,
+                                                 .friction = 0.9,
+                                                 .rolling_friction = 0.006,
+                                                 .cohesion_energy_density = 1e4}));
   ASSERT_EQ(scene.particles.size(), 1u);
   const Particles& feed = scene.particles[0];
   EXPECT_EQ(feed.count, 1000);
@@ -183,7 +187,7 @@ TEST(Resolved, ReadsBackBitForBit) {
       read(kExampleScene, {"time.step=8.7 ns", "title=\"quote \\\" back \\\\ line\\nend \\u0001\"",
                            "walls.0.shape.plane.normal=[0.1, -0.0, 3.3]",
                            "walls.0.shape.plane.point=[\"-0 m\", \"0 m\", \"0 m\"]"}));
-  expect_same_after_resolving(read(kExampleScene, {"contact.damping=clipped", "time.allow_unstable=true",
+  expect_same_after_resolving(read(kExampleScene, {"output.energy=true", "time.allow_unstable=true",
                                                    "walls.1.shape={box={lo=[\"0.1 mm\",\"0 m\",\"0 m\"],"
                                                    "hi=[\"0.3 mm\",\"1 mm\",\"1 mm\"]}}"}));
 }

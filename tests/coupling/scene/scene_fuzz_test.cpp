@@ -83,7 +83,13 @@ class Damage {
 };
 
 std::vector<std::string> valid_scenes() {
-  std::vector<std::string> scenes{kExampleScene};
+  std::vector<std::string> scenes{
+      kExampleScene,
+      with_contact("normal = \"hooke\"\ntangential = \"slider\"\ncohesion = \"van_der_waals\"",
+                   "restitution = 0.5\nstiffness = \"1 kN/m\"\nfriction = 0.3\nhamaker_constant = \"65 "
+                   "zJ\"\ncutoff = \"0.165 nm\""),
+      with_contact("damping = \"clipped\"\nrolling = \"epsd2\"\ncohesion = \"jkr\"",
+                   "restitution = 0.5\nrolling_friction = 0.1\nsurface_energy = \"0.1 mJ/m^2\"")};
   for (const auto& entry : std::filesystem::directory_iterator(INTERSTICE_SOURCE_DIR "/data/scenes"))
     if (entry.path().extension() == ".toml") {
       std::ifstream file(entry.path());
