@@ -13,8 +13,9 @@ constexpr std::size_t kPairsPerBlock = 4096;
 
 void PairContacts::replace(std::vector<PairRef> new_pairs, const std::vector<GrainRow>& rows,
                            const std::vector<std::uint32_t>& old_slot) {
-  std::vector<std::uint8_t> new_touching(new_pairs.size(), 0);
-  std::vector<Vec3d> new_spring(new_pairs.size());
+  std::vector<ContactState> new_state(new_pairs.size(), ContactState::apart);
+  std::vector<TangentialSpring<double>> new_sliding(kept_.sliding ? new_pairs.size() : 0);
+  std::vector<TangentialSpring<double>> new_rolling(kept_.rolling ? new_pairs.size() : 0);
   for_each_block({new_pairs.size(), kPairsPerBlock}, [&](std::size_t, std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) {
       const std::uint32_t slot = old_slot[new_pairs[k].a];
@@ -24,14 +25,17 @@ void PairContacts::replace(std::vector<PairRef> new_pairs, const std::vector<Gra
       const auto at = std::lower_bound(first, last, partner);
       if (at == last || *at != partner) continue;
       const std::uint32_t old_pair = adjacent_[static_cast<std::size_t>(at - partner_id_.begin())].pair;
-      new_touching[k] = touching[old_pair];
-      new_spring[k] = spring[old_pair];
+      new_state[k] = state[old_pair];
+      if (kept_.sliding) new_sliding[k] = sliding[old_pair];
+      if (kept_.rolling) new_rolling[k] = rolling[old_pair];
     }
   });
   pairs = std::move(new_pairs);
-  touching = std::move(new_touching);
-  spring = std::move(new_spring);
+  state = std::move(new_state);
+  sliding = std::move(new_sliding);
+  rolling = std::move(new_rolling);
   results.resize(pairs.size());
+  if (kept_.heat) heat.assign(pairs.size(), {});
   build_adjacency(rows);
 }
 
@@ -58,7 +62,7 @@ void PairContacts::build_adjacency(const std::vector<GrainRow>& rows) {
   });
 }
 
-void WallContacts::replace(const std::vector<GrainRow>& rows, const std::vector<Shape>& walls, double skin,
+void WallContacts::replace(const std::vector<GrainRow>& rows, const std::vector<Shape>& walls, double reach,
                            const std::vector<std::uint32_t>& old_slot) {
   const Blocks blocks{rows.size(), kRowsPerBlock};
   std::vector<std::vector<WallContact>> found(blocks.count());
@@ -66,8 +70,9 @@ void WallContacts::replace(const std::vector<GrainRow>& rows, const std::vector<
   for_each_block(blocks, [&](std::size_t b, std::size_t begin, std::size_t end) {
     for (std::size_t s = begin; s < end; ++s) {
       for (std::uint32_t w = 0; w < walls.size(); ++w) {
-        if (wall_distance(walls[w], rows[s].position()).distance >= rows[s].radius + skin) continue;
-        WallContact contact{w, 0, {}, {}};
+        if (wall_distance(walls[w], rows[s].position()).distance >= rows[s].radius + reach) continue;
+        WallContact contact;
+        contact.wall = w;
         if (old_slot[s] != PairContacts::kNoSlot) {
           for (const WallContact& old : of(old_slot[s])) {
             if (old.wall == w) contact = old;

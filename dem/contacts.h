@@ -7,16 +7,38 @@
 #include <vector>
 
 #include "base/vec3.h"
+#include "dem/contact/mindlin.h"
 #include "dem/grains.h"
 #include "dem/neighbours.h"
 
 namespace interstice::dem {
+
+enum class ContactState : std::uint8_t {
+  apart,
+  attracting,  // a force across a gap (van der Waals)
+  touching,    // in contact; with JKR until the neck tears
+};
+
+/// Which memories the laws keep: what they do not keep takes no space.
+struct KeptMemories {
+  bool sliding = false, rolling = false, heat = false;
+};
 
 /// What a pair did in the last step, kept until its grains have collected it.
 struct PairResult {
   Vec3d force;     // on a [N]
   Vec3d torque_a;  // [N m]
   Vec3d torque_b;
+};
+
+/// What a pair turned into heat in the last step [J].
+struct PairHeat {
+  double damping = 0, sliding = 0, rolling = 0, adhesion = 0;
+
+  PairHeat& operator+=(const PairHeat& o) {
+    damping += o.damping, sliding += o.sliding, rolling += o.rolling, adhesion += o.adhesion;
+    return *this;
+  }
 };
 
 /// One end of a pair, as a grain sees it.
@@ -28,12 +50,18 @@ struct Adjacent {
 
 class PairContacts {
  public:
-  std::vector<PairRef> pairs;
-  std::vector<std::uint8_t> touching;  // after the last step
-  std::vector<Vec3d> spring;           // tangential displacement [m]; zero unless touching
-  std::vector<PairResult> results;     // valid where touching
+  explicit PairContacts(const KeptMemories& kept) : kept_(kept) {}
 
-  /// Takes over a new list; springs of pairs that are touching move with them. `old_slot[s]` is where the
+  std::vector<PairRef> pairs;
+  std::vector<ContactState> state;                // after the last step
+  std::vector<TangentialSpring<double>> sliding;  // zero unless touching; empty unless kept
+  std::vector<TangentialSpring<double>> rolling;  // the same
+  std::vector<PairResult> results;                // valid unless apart
+  std::vector<PairHeat> heat;                     // empty unless kept
+
+  bool touching(std::size_t k) const { return state[k] == ContactState::touching; }
+
+  /// Takes over a new list; states and springs move with their pairs. `old_slot[s]` is where the
   /// grain now in slot s stood when the present list was made (or kNoSlot).
   void replace(std::vector<PairRef> new_pairs, const std::vector<GrainRow>& rows,
                const std::vector<std::uint32_t>& old_slot);
@@ -50,6 +78,7 @@ class PairContacts {
  private:
   void build_adjacency(const std::vector<GrainRow>& rows);
 
+  KeptMemories kept_;
   std::vector<std::uint32_t> first_;  // per slot
   std::vector<Adjacent> adjacent_;
   std::vector<std::int64_t> partner_id_;  // beside adjacent_: survives a change of slots
@@ -58,9 +87,11 @@ class PairContacts {
 /// A grain near a wall.
 struct WallContact {
   std::uint32_t wall;
-  std::uint8_t touching;
-  Vec3d spring;  // [m]; zero unless touching
-  Vec3d force;   // on the grain, valid where touching [N]
+  ContactState state = ContactState::apart;
+  TangentialSpring<double> sliding, rolling;  // zero unless touching
+  Vec3d force;                                // on the grain, valid unless apart [N]
+
+  bool touching() const { return state == ContactState::touching; }
 };
 
 class WallContacts {
@@ -77,8 +108,8 @@ class WallContacts {
     return {entries.data() + first_[slot], entries.data() + first_[slot + 1]};
   }
 
-  /// Lists the walls within `skin` of each grain; springs move along as in PairContacts::replace.
-  void replace(const std::vector<GrainRow>& rows, const std::vector<Shape>& walls, double skin,
+  /// Lists the walls nearer than `reach` to each grain; memories move along as in PairContacts::replace.
+  void replace(const std::vector<GrainRow>& rows, const std::vector<Shape>& walls, double reach,
                const std::vector<std::uint32_t>& old_slot);
 
  private:

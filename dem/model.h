@@ -12,13 +12,6 @@ namespace interstice::dem {
 
 enum class AxisBoundary { open, periodic };  // a bounding wall is a plane among the walls
 
-struct Features {
-  bool tangential = false;  // Mindlin spring with Coulomb limit
-  bool rolling = false;     // constant directional torque
-  bool cohesion = false;    // SJKR
-  bool clip_tension = false;
-};
-
 struct Wall {
   Shape shape;  // as it stands at time 0
   std::uint16_t material = 0;
@@ -30,10 +23,15 @@ struct Model {
   Vec3d gravity{0, 0, -9.81};  // [m/s^2]
   std::vector<Material> materials;
   std::vector<PairCoefficients> pairs;  // materials x materials, symmetric
-  Features features;
+  Laws laws;
+  DampingRule damping = DampingRule::exact_with_tension;
+  double slider_velocity = 1e-3;  // below it the slider's friction is in proportion to the slip [m/s]
   std::vector<Wall> walls;
 
   const PairCoefficients& pair(std::size_t a, std::size_t b) const { return pairs[a * materials.size() + b]; }
+  PairConstants<double> constants(std::size_t a, std::size_t b) const {
+    return derive_pair_constants(materials[a], materials[b], pair(a, b), laws.normal, damping);
+  }
 };
 
 }  // namespace interstice::dem

@@ -10,10 +10,21 @@ namespace {
 constexpr std::size_t kRealsPerGrain = 17;
 constexpr std::size_t kIntegersPerGrain = 3;
 constexpr std::size_t kRealsPerWall = 6;
+constexpr std::size_t kRealsPerSpring = 4, kRealsPerContact = 2 * kRealsPerSpring;  // sliding, rolling
+constexpr std::size_t kRealsPerLedger = 9;
 
 void append(std::vector<double>& out, const Vec3d& v) { out.insert(out.end(), {v.x, v.y, v.z}); }
 
 Vec3d vec_at(const std::vector<double>& in, std::size_t at) { return {in[at], in[at + 1], in[at + 2]}; }
+
+void append(std::vector<double>& out, const TangentialSpring<double>& s) {
+  append(out, s.force);
+  out.push_back(s.stiffness);
+}
+
+TangentialSpring<double> spring_at(const std::vector<double>& in, std::size_t at) {
+  return {vec_at(in, at), in[at + 3]};
+}
 
 template <class Map>
 const auto& array_of(const Map& map, const char* name) {
@@ -42,14 +53,18 @@ SavedState Simulation::save() const {
     grains.insert(grains.end(), {g.radius, g.mass});
     labels.insert(labels.end(), {g.id, g.material, g.layer});
     for (const Adjacent& e : pair_contacts_.of(slot)) {
-      if (e.second || !pair_contacts_.touching[e.pair]) continue;
+      if (e.second || !pair_contacts_.touching(e.pair)) continue;
       pair_ids.insert(pair_ids.end(), {g.id, rows_[e.slot].id});
-      append(pair_springs, pair_contacts_.spring[e.pair]);
+      append(pair_springs,
+             pair_contacts_.sliding.empty() ? TangentialSpring<double>{} : pair_contacts_.sliding[e.pair]);
+      append(pair_springs,
+             pair_contacts_.rolling.empty() ? TangentialSpring<double>{} : pair_contacts_.rolling[e.pair]);
     }
     for (const WallContact& w : wall_contacts_.of(slot)) {
-      if (!w.touching) continue;
+      if (!w.touching()) continue;
       wall_ids.insert(wall_ids.end(), {g.id, w.wall});
-      append(wall_springs, w.spring);
+      append(wall_springs, w.sliding);
+      append(wall_springs, w.rolling);
     }
   }
   for (const WallMotion& m : motion_of_wall_) {
@@ -57,8 +72,13 @@ SavedState Simulation::save() const {
     append(s.real["walls"], m.offset);
     s.integer["walls_since"].push_back(m.since);
   }
+  for (const GrainEnergy& e : energies_) {
+    std::vector<double>& ledger = s.real["energies"];
+    ledger.insert(ledger.end(), {e.inserted, e.gravity, e.walls, e.wall_power, e.carried, e.heat.damping,
+                                 e.heat.sliding, e.heat.rolling, e.heat.adhesion});
+  }
   s.real["time_step"] = {dt_};
-  s.integer["counters"] = {step_, next_id_, lost_};
+  s.integer["counters"] = {step_, next_id_, lost_, counted_ids_};
   return s;
 }
 
@@ -67,13 +87,13 @@ void Simulation::restore(const SavedState& s) {
   const auto& labels = array_of(s.integer, "grain_labels");
   const auto& counters = array_of(s.integer, "counters");
   const std::size_t n = labels.size() / kIntegersPerGrain;
-  if (grains.size() != n * kRealsPerGrain || counters.size() != 3) {
+  if (grains.size() != n * kRealsPerGrain || counters.size() != 4) {
     throw InputError("checkpoint: arrays of unequal length; start the run anew");
   }
   if (array_of(s.real, "time_step").at(0) != dt_) {
     throw InputError("checkpoint: made with another time step; start the run anew");
   }
-  step_ = counters[0], next_id_ = counters[1], lost_ = counters[2];
+  step_ = counters[0], next_id_ = counters[1], lost_ = counters[2], counted_ids_ = counters[3];
   rows_.assign(n, {});
   motions_.assign(n, {});
   for (std::size_t i = 0; i < n; ++i) {
@@ -95,12 +115,27 @@ void Simulation::restore(const SavedState& s) {
   }
   for (std::size_t w = 0; w < since.size(); ++w) {
     motion_of_wall_[w] = {vec_at(walls, kRealsPerWall * w), vec_at(walls, kRealsPerWall * w + 3), since[w]};
+    wall_velocities_[w] = motion_of_wall_[w].velocity;
   }
   place_walls();
   begun_ = false;
   built_ids_.clear();
   rebuild();
   restore_springs(s);
+  if (options_.energies) restore_energies(s);
+}
+
+void Simulation::restore_energies(const SavedState& s) {
+  energies_.assign(static_cast<std::size_t>(next_id_), {});
+  if (next_id_ == 0) return;
+  const auto& ledger = array_of(s.real, "energies");
+  if (ledger.size() != kRealsPerLedger * energies_.size()) {
+    throw InputError("checkpoint: arrays of unequal length; start the run anew");
+  }
+  for (std::size_t i = 0; i < energies_.size(); ++i) {
+    const double* v = ledger.data() + kRealsPerLedger * i;
+    energies_[i] = {v[0], v[1], v[2], v[3], {v[5], v[6], v[7], v[8]}, v[4]};
+  }
 }
 
 void Simulation::restore_springs(const SavedState& s) {
@@ -108,7 +143,8 @@ void Simulation::restore_springs(const SavedState& s) {
   const auto& pair_springs = array_of(s.real, "pair_springs");
   const auto& wall_ids = array_of(s.integer, "wall_ids");
   const auto& wall_springs = array_of(s.real, "wall_springs");
-  if (2 * pair_springs.size() != 3 * pair_ids.size() || 2 * wall_springs.size() != 3 * wall_ids.size()) {
+  if (2 * pair_springs.size() != kRealsPerContact * pair_ids.size() ||
+      2 * wall_springs.size() != kRealsPerContact * wall_ids.size()) {
     throw InputError("checkpoint: arrays of unequal length; start the run anew");
   }
   std::vector<std::uint32_t> slot_of_id(static_cast<std::size_t>(next_id_), PairContacts::kNoSlot);
@@ -117,15 +153,20 @@ void Simulation::restore_springs(const SavedState& s) {
   for (std::size_t k = 0; 2 * k < pair_ids.size(); ++k) {
     for (const Adjacent& e : pair_contacts_.of(slot_of_id.at(static_cast<std::size_t>(pair_ids[2 * k])))) {
       if (rows_[e.slot].id != pair_ids[2 * k + 1]) continue;
-      pair_contacts_.touching[e.pair] = 1;
-      pair_contacts_.spring[e.pair] = vec_at(pair_springs, 3 * k);
+      pair_contacts_.state[e.pair] = ContactState::touching;
+      const TangentialSpring<double> sliding = spring_at(pair_springs, kRealsPerContact * k),
+                                     rolling =
+                                         spring_at(pair_springs, kRealsPerContact * k + kRealsPerSpring);
+      if (!pair_contacts_.sliding.empty()) pair_contacts_.sliding[e.pair] = sliding;
+      if (!pair_contacts_.rolling.empty()) pair_contacts_.rolling[e.pair] = rolling;
     }
   }
   for (std::size_t k = 0; 2 * k < wall_ids.size(); ++k) {
     for (WallContact& w : wall_contacts_.of(slot_of_id.at(static_cast<std::size_t>(wall_ids[2 * k])))) {
       if (w.wall != wall_ids[2 * k + 1]) continue;
-      w.touching = 1;
-      w.spring = vec_at(wall_springs, 3 * k);
+      w.state = ContactState::touching;
+      w.sliding = spring_at(wall_springs, kRealsPerContact * k);
+      w.rolling = spring_at(wall_springs, kRealsPerContact * k + kRealsPerSpring);
     }
   }
 }

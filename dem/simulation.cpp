@@ -21,14 +21,18 @@ Vec3d offset_at(const Vec3d& offset, const Vec3d& velocity, std::int64_t steps, 
 }  // namespace
 
 Simulation::Simulation(Model model, double time_step, const SimulationOptions& options)
-    : model_(std::move(model)), dt_(time_step), options_(options), motion_of_wall_(model_.walls.size()) {
+    : model_(std::move(model)),
+      dt_(time_step),
+      options_(options),
+      kernels_(find_kernels(model_.laws, options.precision, options.energies)),
+      motion_of_wall_(model_.walls.size()),
+      wall_velocities_(model_.walls.size()),
+      pair_contacts_({keeps_spring(model_.laws), keeps_rolling_spring(model_.laws), options.energies}) {
   if (!(dt_ > 0) || !std::isfinite(dt_)) throw InputError("time step: must be positive and finite");
-  const std::size_t n = model_.materials.size();
-  constants_.resize(n * n);
-  for (std::size_t a = 0; a < n; ++a) {
-    for (std::size_t b = 0; b < n; ++b) {
-      constants_[a * n + b] =
-          derive_pair_constants(model_.materials[a], model_.materials[b], model_.pair(a, b));
+  for (std::size_t a = 0; a < model_.materials.size(); ++a) {
+    for (std::size_t b = 0; b < model_.materials.size(); ++b) {
+      constants_.push_back(model_.constants(a, b));
+      constants_single_.push_back(constants_.back().as<float>());
     }
   }
   walls_.resize(model_.walls.size());
@@ -60,6 +64,7 @@ void Simulation::add_grains(std::span<const NewGrain> grains) {
     // The first step's acceleration is gravity alone: exact for a grain in flight, first order for one in
     // contact.
     motions_.push_back({model_.gravity, 1 / row.mass, {0, 0, 0}, 1 / (0.4 * row.mass * g.radius * g.radius)});
+    if (options_.energies) energies_.emplace_back().inserted = kinetic_energy(row);
   }
   list_valid_ = list_valid_ && grains.empty();
 }
@@ -69,6 +74,7 @@ void Simulation::set_wall_velocity(std::size_t wall, const Vec3d& velocity) {
   m.offset = offset_at(m.offset, m.velocity, step_ - m.since, dt_);
   m.since = step_;
   m.velocity = velocity;
+  wall_velocities_[wall] = velocity;
 }
 
 void Simulation::place_walls() {
@@ -86,6 +92,7 @@ void Simulation::advance(std::int64_t steps) {
     place_walls();
     rebuild_if_needed();
     evaluate_pairs();
+    if (options_.energies) count_inserted_contacts();
     finish_and_begin(s + 1 < steps);
   }
 }
@@ -99,8 +106,9 @@ void Simulation::begin_step() {
 /// Collects the forces, completes the velocities, and (to spare a pass over memory) begins the next step.
 void Simulation::finish_and_begin(bool begin_next) {
   std::vector<PassReport> reports(Blocks{rows_.size(), kRowsPerBlock}.count());
+  const StepView view = step_view();
   for_rows([&](std::size_t b, std::size_t begin, std::size_t end) {
-    finish_rows(begin, end);
+    for (std::size_t i = begin; i < end; ++i) finish_row(view, i);
     if (begin_next) reports[b] = begin_rows(begin, end);
   });
   if (begin_next) take_report(reports);
@@ -119,6 +127,9 @@ Simulation::PassReport Simulation::begin_rows(std::size_t begin, std::size_t end
     g.x += step.x, g.y += step.y, g.z += step.z;
     g.vx += dt_ * m.acceleration.x, g.vy += dt_ * m.acceleration.y, g.vz += dt_ * m.acceleration.z;
     g.wx += dt_ * m.angular.x, g.wy += dt_ * m.angular.y, g.wz += dt_ * m.angular.z;
+    if (options_.energies) {
+      energies_[static_cast<std::size_t>(g.id)].gravity += g.mass * dot(model_.gravity, step);
+    }
     const double stepped = dot(step, step);
     if (!(stepped <= 0.25 * g.radius * g.radius) && report.broken < 0) report.broken = g.id;
     for (int axis = 0; axis < 3; ++axis) {
@@ -161,16 +172,22 @@ void Simulation::take_report(const std::vector<PassReport>& reports) {
   if (left) remove_leavers();
 }
 
+bool Simulation::inside(const GrainRow& g) const {
+  for (int axis = 0; axis < 3; ++axis) {
+    if (model_.boundary[axis] != AxisBoundary::open) continue;
+    const double p = g.position()[axis];
+    if (!(p >= model_.domain.lo[axis] && p < model_.domain.hi[axis])) return false;
+  }
+  return true;
+}
+
 void Simulation::remove_leavers() {
+  for (std::size_t i = 0; options_.energies && i < rows_.size(); ++i) {
+    if (!inside(rows_[i])) note_leaver(i);
+  }
   std::size_t kept = 0;
   for (std::size_t i = 0; i < rows_.size(); ++i) {
-    bool inside = true;
-    for (int axis = 0; axis < 3; ++axis) {
-      if (model_.boundary[axis] != AxisBoundary::open) continue;
-      const double p = rows_[i].position()[axis];
-      inside = inside && p >= model_.domain.lo[axis] && p < model_.domain.hi[axis];
-    }
-    if (!inside) continue;
+    if (!inside(rows_[i])) continue;
     rows_[kept] = rows_[i];
     motions_[kept] = motions_[i];
     ++kept;
@@ -213,12 +230,26 @@ SearchSpace Simulation::search_space() const {
   return space;
 }
 
+/// How far bodies act on each other beyond contact [m], at most.
+double Simulation::attraction_reach() const {
+  double reach = 0, largest = 0;
+  for (const GrainRow& g : rows_) largest = std::max(largest, g.radius);
+  for (const PairConstants<double>& c : constants_) {
+    if (model_.laws.cohesion == CohesionLaw::jkr)  // grows with R*, which is at most the radius (at a wall)
+      reach = std::max(reach, jkr_reach(c.effective_modulus, c.work_of_adhesion, largest));
+    if (model_.laws.cohesion == CohesionLaw::van_der_waals) reach = std::max(reach, c.range);
+  }
+  return reach;
+}
+
 void Simulation::check_periodic_lengths() const {
   double largest = 0;
   for (const GrainRow& g : rows_) largest = std::max(largest, g.radius);
   for (int axis = 0; axis < 3; ++axis) {
     const double length = model_.domain.hi[axis] - model_.domain.lo[axis];
-    if (model_.boundary[axis] != AxisBoundary::periodic || length > 2 * (2 * largest + skin_)) continue;
+    if (model_.boundary[axis] != AxisBoundary::periodic ||
+        length > 2 * (2 * largest + skin_ + attraction_reach()))
+      continue;
     throw InputError(
         "domain.box: the periodic axis " + std::string(1, "xyz"[axis]) +
         " is shorter than two of the largest grains; make it longer, or the boundary open or a wall");
@@ -239,10 +270,11 @@ void Simulation::rebuild() {
   for (std::size_t s = 0; s < rows_.size(); ++s)
     old_slot[s] = slot_of_id[static_cast<std::size_t>(rows_[s].id)];
 
-  const SearchSpace space = search_space();
+  SearchSpace space = search_space();
+  space.skin += attraction_reach();
   pair_contacts_.replace(options_.reference ? find_pairs_brute_force(rows_, space) : find_pairs(rows_, space),
                          rows_, old_slot);
-  wall_contacts_.replace(rows_, walls_, skin_, old_slot);
+  wall_contacts_.replace(rows_, walls_, space.skin, old_slot);
   built_ids_.resize(rows_.size());
   for (std::size_t s = 0; s < rows_.size(); ++s) {
     GrainRow& g = rows_[s];

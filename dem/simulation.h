@@ -13,7 +13,9 @@
 
 #include "dem/columns.h"
 #include "dem/contacts.h"
+#include "dem/energy.h"
 #include "dem/grains.h"
+#include "dem/kernels/kernels.h"
 #include "dem/model.h"
 
 namespace interstice::dem {
@@ -21,6 +23,8 @@ namespace interstice::dem {
 struct SimulationOptions {
   bool reference = false;  // serial loops, neighbours by trying every pair
   double skin = 0;         // [m]; 0: chosen at every rebuild from how fast the grains are
+  Precision precision = Precision::real64;
+  bool energies = false;  // keep account of every grain's energy (energy.h)
 };
 
 /// Everything that a run must keep to go on with the same bits: named arrays.
@@ -63,9 +67,13 @@ class Simulation {
   const PairContacts& pair_contacts() const { return pair_contacts_; }
   const WallContacts& wall_contacts() const { return wall_contacts_; }
   std::vector<std::uint32_t> slots_by_id() const;
-  const PairConstants& constants(std::size_t material_a, std::size_t material_b) const {
+  const PairConstants<double>& constants(std::size_t material_a, std::size_t material_b) const {
     return constants_[material_a * model_.materials.size() + material_b];
   }
+  /// By id; empty unless energies are kept.
+  std::span<const GrainEnergy> grain_energies() const { return energies_; }
+  /// Are the laws chosen at run time, for want of a kernel of their own?
+  bool generic_kernel() const { return kernels_.generic; }
   SearchSpace search_space() const;
   std::int64_t rebuilds() const { return rebuilds_; }
 
@@ -87,31 +95,35 @@ class Simulation {
   double wall_travel() const;
   void begin_step();
   PassReport begin_rows(std::size_t begin, std::size_t end);
-  void finish_rows(std::size_t begin, std::size_t end);
   void finish_and_begin(bool begin_next);
   void take_report(const std::vector<PassReport>& reports);
+  bool inside(const GrainRow& grain) const;
   void remove_leavers();
   void rebuild_if_needed();
   void rebuild();
   double choose_skin() const;
   void check_periodic_lengths() const;
   void restore_springs(const SavedState& state);
+  void restore_energies(const SavedState& state);
+  double attraction_reach() const;
+  StepView step_view();
   void evaluate_pairs();
+  void finish_row(const StepView& view, std::size_t i);
+  void count_inserted_contacts();
+  void add_heat(std::size_t i, const WallTotals& walls);
+  void note_leaver(std::size_t i);
   template <class Body>
   void for_rows(const Body& body) const;
-
-  template <bool T, bool R, bool C>
-  void evaluate_pairs_with();
-  template <bool T, bool R, bool C>
-  void evaluate_walls_with(std::size_t slot, Vec3d& force, Vec3d& torque);
-  void add_wall_forces(std::size_t slot, Vec3d& force, Vec3d& torque);
 
   Model model_;
   double dt_;
   SimulationOptions options_;
-  std::vector<PairConstants> constants_;  // materials x materials
-  std::vector<Shape> walls_;              // as they stand now
+  ForceKernels kernels_;
+  std::vector<PairConstants<double>> constants_;        // materials x materials
+  std::vector<PairConstants<float>> constants_single_;  // the same
+  std::vector<Shape> walls_;                            // as they stand now
   std::vector<WallMotion> motion_of_wall_;
+  std::vector<Vec3d> wall_velocities_;
 
   std::vector<GrainRow> rows_;
   std::vector<GrainMotion> motions_;
@@ -121,6 +133,8 @@ class Simulation {
   std::int64_t step_ = 0;
   std::int64_t next_id_ = 0;
   std::int64_t lost_ = 0;
+  std::vector<GrainEnergy> energies_;  // by id; empty unless kept
+  std::int64_t counted_ids_ = 0;       // grains below have had their first step
 
   bool list_valid_ = false;
   bool begun_ = false;  // the step after step_ has been begun

@@ -18,7 +18,7 @@ void for_touching_pairs(const Simulation& sim, const Body& body) {
   const auto rows = sim.rows();
   for (const std::uint32_t slot : sim.slots_by_id()) {
     for (const Adjacent& e : sim.pair_contacts().of(slot)) {
-      if (!e.second && sim.pair_contacts().touching[e.pair]) body(rows[slot], rows[e.slot], e.pair);
+      if (!e.second && sim.pair_contacts().touching(e.pair)) body(rows[slot], rows[e.slot], e.pair);
     }
   }
 }
@@ -34,6 +34,19 @@ std::array<std::int64_t, 4> surface_cell(const Vec3d& point, const Vec3d& normal
     if (axis != face) key[axis + 1] = static_cast<std::int64_t>(std::floor(point[axis] / kFootprintCell));
   }
   return key;
+}
+
+/// Only the neck of a JKR contact has a negative overlap; elsewhere rounding may leave one.
+double stored_overlap(const Laws& laws, double overlap) {
+  return laws.cohesion == CohesionLaw::jkr ? overlap : std::max(overlap, 0.0);
+}
+
+/// Radius of the contact circle [m].
+double contact_radius(const Laws& laws, const PairConstants<double>& c, double effective_radius,
+                      double overlap) {
+  if (laws.cohesion == CohesionLaw::jkr)
+    return jkr_contact_radius(c.effective_modulus, c.work_of_adhesion, effective_radius, overlap);
+  return std::sqrt(effective_radius * std::max(overlap, 0.0));
 }
 
 }  // namespace
@@ -65,7 +78,7 @@ WallStatistics wall_statistics(const Simulation& sim, std::size_t wall) {
   const auto rows = sim.rows();
   for (const std::uint32_t slot : sim.slots_by_id()) {
     for (const WallContact& c : sim.wall_contacts().of(slot)) {
-      if (c.wall != wall || !c.touching) continue;
+      if (c.wall != wall || !c.touching()) continue;
       const GrainRow& g = rows[slot];
       const WallDistance surface = wall_distance(sim.walls()[wall], g.position());
       const double pressing = dot(c.force, surface.normal);
@@ -74,7 +87,9 @@ WallStatistics wall_statistics(const Simulation& sim, std::size_t wall) {
       shear -= tangential;  // on the wall: the opposite of what the grain feels
       s.shear_force_sum += norm(tangential);
       ++s.contacts;
-      s.contact_area += M_PI * g.radius * (g.radius - surface.distance);
+      const PairConstants<double>& constants = sim.constants(g.material, sim.model().walls[wall].material);
+      const double a = contact_radius(sim.model().laws, constants, g.radius, g.radius - surface.distance);
+      s.contact_area += M_PI * a * a;
       cells.push_back(surface_cell(g.position() - surface.distance * surface.normal, surface.normal));
     }
   }
@@ -93,7 +108,7 @@ MotionStatistics motion_statistics(const Simulation& sim) {
   for (const std::uint32_t slot : sim.slots_by_id()) {
     const GrainRow& g = rows[slot];
     const double v2 = dot(g.velocity(), g.velocity());
-    s.kinetic_energy += 0.5 * g.mass * (v2 + 0.4 * g.radius * g.radius * dot(g.spin(), g.spin()));
+    s.kinetic_energy += kinetic_energy(g);
     s.fall_energy_mean += g.mass * gravity * 2 * g.radius;
     s.fastest = std::max(s.fastest, std::sqrt(v2));
   }
@@ -103,28 +118,38 @@ MotionStatistics motion_statistics(const Simulation& sim) {
 
 StepCheck check_step(const Simulation& sim) {
   StepCheck worst;
-  const SearchSpace space = sim.search_space();
-  const auto consider = [&](double modulus, double radius, double mass, double overlap, std::int64_t a,
-                            std::int64_t b) {
-    const double stiffness = hertz_stiffness(modulus, std::sqrt(radius * std::max(overlap, 0.0)));
-    const double ratio = sim.time_step() * std::sqrt(stiffness / mass);
-    if (ratio > worst.ratio) worst = {ratio, a, b};
-  };
   const auto rows = sim.rows();
+  const SearchSpace space = sim.search_space();
+  const Laws& laws = sim.model().laws;
+  std::vector<double> bound(rows.size(), 0);  // of the squared frequencies that a grain takes part in [1/s^2]
+  const auto consider = [&](double stiffness, double mass, std::int64_t a, std::int64_t b) {
+    const double ratio = sim.time_step() * std::sqrt(stiffness / mass);
+    if (ratio > worst.ratio) worst.ratio = ratio, worst.grain_a = a, worst.grain_b = b;
+  };
   for_touching_pairs(sim, [&](const GrainRow& a, const GrainRow& b, std::uint32_t) {
     const double reach = a.radius + b.radius;
-    consider(sim.constants(a.material, b.material).effective_modulus, a.radius * b.radius / reach,
-             a.mass * b.mass / (a.mass + b.mass), reach - norm(separation(a.position(), b.position(), space)),
-             a.id, b.id);
+    const double overlap = reach - norm(separation(a.position(), b.position(), space));
+    const double stiffness = normal_response(laws, stored_overlap(laws, overlap), a.radius * b.radius / reach,
+                                             sim.constants(a.material, b.material))
+                                 .stiffness;
+    consider(stiffness, a.mass * b.mass / (a.mass + b.mass), a.id, b.id);
+    const double coupling = stiffness / std::sqrt(a.mass * b.mass);
+    bound[static_cast<std::size_t>(&a - rows.data())] += stiffness / a.mass + coupling;
+    bound[static_cast<std::size_t>(&b - rows.data())] += stiffness / b.mass + coupling;
   });
   for (std::size_t slot = 0; slot < rows.size(); ++slot) {
+    const GrainRow& g = rows[slot];
     for (const WallContact& c : sim.wall_contacts().of(slot)) {
-      if (!c.touching) continue;
-      const GrainRow& g = rows[slot];
-      const double distance = wall_distance(sim.walls()[c.wall], g.position()).distance;
-      consider(sim.constants(g.material, sim.model().walls[c.wall].material).effective_modulus, g.radius,
-               g.mass, g.radius - distance, g.id, -1);
+      if (!c.touching()) continue;
+      const double overlap = g.radius - wall_distance(sim.walls()[c.wall], g.position()).distance;
+      const double stiffness = normal_response(laws, stored_overlap(laws, overlap), g.radius,
+                                               sim.constants(g.material, sim.model().walls[c.wall].material))
+                                   .stiffness;
+      consider(stiffness, g.mass, g.id, -1);
+      bound[slot] += stiffness / g.mass;
     }
+    const double frequency = sim.time_step() * std::sqrt(bound[slot]);
+    if (frequency > worst.frequency) worst.frequency = frequency, worst.frequency_grain = g.id;
   }
   return worst;
 }

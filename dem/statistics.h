@@ -23,7 +23,7 @@ struct WallStatistics {
   double shear_force_sum = 0;  // sum of their magnitudes [N]
   std::int64_t contacts = 0;
   std::int64_t particles = 0;  // grains that touch it
-  double contact_area = 0;     // sum of pi a^2, a^2 = R overlap (Hertz) [m^2]
+  double contact_area = 0;     // sum of pi a^2, a the contact radius [m^2]
   double footprint_area = 0;   // 50 um cells of the surface that powder touches [m^2]
 };
 
@@ -33,10 +33,13 @@ struct MotionStatistics {
   double fastest = 0;           // [m/s]
 };
 
-/// How fine the time step is for the contacts as they are: dt over sqrt(m*/S) of the stiffest.
+/// How fine the time step is for the contacts as they are.
 struct StepCheck {
-  double ratio = 0;                         // 0 without contacts
-  std::int64_t grain_a = -1, grain_b = -1;  // b < 0: a wall
+  double ratio = 0;                         // dt over sqrt(m*/S) of the stiffest contact; 0 without contacts
+  std::int64_t grain_a = -1, grain_b = -1;  // of that contact; b < 0: a wall
+  double frequency = 0;  // dt times a bound of the highest frequency of the contact network (Gershgorin); the
+                         // integration is stable below 2
+  std::int64_t frequency_grain = -1;  // the grain whose contacts give it
 };
 
 ContactStatistics contact_statistics(const Simulation& simulation);

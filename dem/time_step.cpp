@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "dem/contact/hooke.h"
+
 namespace interstice::dem {
 namespace {
 
@@ -29,24 +31,27 @@ double collision_time(double effective_mass, double effective_radius, double eff
 StepLimits step_limits(const Model& model, const std::vector<SmallestGrain>& smallest, double speed) {
   constexpr double inf = std::numeric_limits<double>::infinity();
   StepLimits limits{inf, inf};
-  const auto modulus = [&](std::size_t a, std::size_t b) {
-    return derive_pair_constants(model.materials[a], model.materials[b], model.pair(a, b)).effective_modulus;
+  const bool hooke = model.laws.normal == NormalLaw::hooke;
+  const auto time = [&](std::size_t a, std::size_t b, double mass, double radius) {
+    const PairConstants<double> c = model.constants(a, b);
+    // The damping only lengthens a linear contact: without it the limit is safe.
+    return hooke ? hooke_contact_time(mass, c.stiffness, 0)
+                 : collision_time(mass, radius, c.effective_modulus, speed);
   };
   for (const SmallestGrain& a : smallest) {
     const double mass_a = mass_of(a.radius, model.materials[a.material].density);
     limits.rayleigh_time =
         std::min(limits.rayleigh_time, rayleigh_time(a.radius, model.materials[a.material]));
-    if (!(speed > 0)) continue;
+    if (!(speed > 0) && !hooke) continue;
     for (const SmallestGrain& b : smallest) {
       const double mass_b = mass_of(b.radius, model.materials[b.material].density);
       limits.collision_time =
-          std::min(limits.collision_time, collision_time(mass_a * mass_b / (mass_a + mass_b),
-                                                         a.radius * b.radius / (a.radius + b.radius),
-                                                         modulus(a.material, b.material), speed));
+          std::min(limits.collision_time, time(a.material, b.material, mass_a * mass_b / (mass_a + mass_b),
+                                               a.radius * b.radius / (a.radius + b.radius)));
     }
     for (const Wall& wall : model.walls) {
-      limits.collision_time = std::min(
-          limits.collision_time, collision_time(mass_a, a.radius, modulus(a.material, wall.material), speed));
+      limits.collision_time =
+          std::min(limits.collision_time, time(a.material, wall.material, mass_a, a.radius));
     }
   }
   return limits;

@@ -8,7 +8,7 @@ namespace interstice::dem {
 /// The extremes of what a scene holds.
 struct StepLimits {
   double rayleigh_time = 0;   // the shortest Rayleigh time present [s]
-  double collision_time = 0;  // the shortest Hertz collision time [s]
+  double collision_time = 0;  // the shortest duration of a contact, Hertz or Hooke [s]
 };
 
 /// Rayleigh time of a grain [s]: pi r sqrt(rho/G) / (0.1631 nu + 0.8766) (Thornton & Randall 1988; Ning

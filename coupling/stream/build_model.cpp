@@ -1,8 +1,11 @@
 #include "coupling/stream/build_model.h"
 
+#include <algorithm>
 #include <cassert>
+#include <cmath>
 
 #include "coupling/scene/sizes.h"
+#include "dem/contact/hooke.h"
 
 namespace interstice::stream {
 namespace {
@@ -11,10 +14,56 @@ namespace {
 dem::PairCoefficients coefficients_of(const scene::Scene& scene, const std::string& a, const std::string& b) {
   for (const scene::ContactPair& p : scene.contact.pairs) {
     if ((p.materials[0] == a && p.materials[1] == b) || (p.materials[0] == b && p.materials[1] == a)) {
-      return {p.restitution, p.friction, p.rolling_friction, p.cohesion_energy_density};
+      return {p.restitution,      p.friction,         p.rolling_friction, p.cohesion_energy_density,
+              p.work_of_adhesion, p.hamaker_constant, p.cutoff,           p.range,
+              p.stiffness};
     }
   }
   return {};
+}
+
+/// The scene's words are the engine's, one by one.
+dem::Laws laws_of(const scene::Contact& c) {
+  using namespace dem;
+  Laws laws;
+  laws.normal = c.normal == scene::NormalLaw::hooke ? NormalLaw::hooke : NormalLaw::hertz;
+  laws.clip = c.damping != scene::Damping::tension;
+  switch (c.tangential) {
+    case scene::TangentialLaw::none: break;
+    case scene::TangentialLaw::slider: laws.tangential = TangentialLaw::slider; break;
+    case scene::TangentialLaw::mindlin: laws.tangential = TangentialLaw::mindlin; break;
+  }
+  switch (c.rolling) {
+    case scene::RollingLaw::none: break;
+    case scene::RollingLaw::cdt: laws.rolling = RollingLaw::cdt; break;
+    case scene::RollingLaw::epsd2: laws.rolling = RollingLaw::epsd2; break;
+  }
+  switch (c.cohesion) {
+    case scene::CohesionLaw::none: break;
+    case scene::CohesionLaw::sjkr: laws.cohesion = CohesionLaw::sjkr; break;
+    case scene::CohesionLaw::jkr: laws.cohesion = CohesionLaw::jkr; break;
+    case scene::CohesionLaw::dmt: laws.cohesion = CohesionLaw::dmt; break;
+    case scene::CohesionLaw::van_der_waals: laws.cohesion = CohesionLaw::van_der_waals; break;
+  }
+  return laws;
+}
+
+/// The rules by which hooke gets its stiffness go by the largest grain, which presses hardest.
+void derive_stiffness(const scene::Scene& scene, dem::Model& model) {
+  const scene::Contact& c = scene.contact;
+  if (c.normal != scene::NormalLaw::hooke || c.stiffness_rule == scene::StiffnessRule::given) return;
+  double radius = 0, heaviest = 0;  // heaviest: r^3 rho
+  for (const scene::Particles& p : scene.particles) {
+    const double r = 0.5 * largest_diameter(p), rho = model.materials[material_index(scene, p.material)].density;
+    if (r * r * r * rho > heaviest) radius = r, heaviest = r * r * r * rho;
+  }
+  if (!(radius > 0)) return;  // no grains: nothing to press
+  const double mass = 4.0 / 3 * M_PI * heaviest;
+  const double stiffness =
+      c.stiffness_rule == scene::StiffnessRule::overlap
+          ? dem::stiffness_for_overlap(0.5 * mass, c.design_speed, c.overlap_limit * 2 * radius)
+          : dem::stiffness_for_velocity(mass, c.design_speed, radius);
+  for (dem::PairCoefficients& pair : model.pairs) pair.stiffness = stiffness;
 }
 
 /// The planes of the axes whose boundary is a wall.
@@ -30,6 +79,22 @@ void add_bounding_walls(const scene::Scene& scene, dem::Model& model) {
 }
 
 }  // namespace
+
+double largest_diameter(const scene::Particles& group) {
+  double largest = group.rain ? group.diameter.max : 0;
+  if (group.list) {
+    for (const scene::PlacedGrain& g : group.list->grains) largest = std::max(largest, g.diameter);
+  }
+  return largest;
+}
+
+double smallest_diameter(const scene::Particles& group) {
+  double smallest = group.rain ? group.diameter.min : INFINITY;
+  if (group.list) {
+    for (const scene::PlacedGrain& g : group.list->grains) smallest = std::min(smallest, g.diameter);
+  }
+  return smallest;
+}
 
 std::size_t material_index(const scene::Scene& scene, const std::string& name) {
   for (std::size_t i = 0; i < scene.materials.size(); ++i) {
@@ -56,10 +121,11 @@ dem::Model build_model(const scene::Scene& scene) {
       model.pairs.push_back(coefficients_of(scene, a.name, b.name));
     }
   }
-  model.features = {scene.contact.tangential == scene::TangentialLaw::mindlin,
-                    scene.contact.rolling == scene::RollingLaw::cdt,
-                    scene.contact.cohesion == scene::CohesionLaw::sjkr,
-                    scene.contact.damping == scene::Damping::clipped};
+  model.laws = laws_of(scene.contact);
+  model.damping = scene.contact.damping == scene::Damping::clipped ? dem::DampingRule::exact_when_clipped
+                                                                   : dem::DampingRule::exact_with_tension;
+  if (scene.contact.slider_velocity > 0) model.slider_velocity = scene.contact.slider_velocity;
+  derive_stiffness(scene, model);
   for (const scene::Wall& w : scene.walls) {
     model.walls.push_back({w.shape, static_cast<std::uint16_t>(material_index(scene, w.material))});
   }

@@ -1,20 +1,24 @@
-// Viscous damping that returns the restitution asked for, at any speed, for the Hertz force (Tsuji, Tanaka &
-// Ishida, Powder Technol. 71, 1992, eq. 17, with the closed form of Antypov & Elliott, EPL 94, 2011, eq. 7).
+// Viscous damping that returns the restitution asked for, at any speed: gamma = 2 zeta sqrt(m* k) for a
+// linear spring and sqrt(5/6) times that with the tangent stiffness S for k for the Hertz force (Tsuji,
+// Tanaka & Ishida, Powder Technol. 71, 1992, eq. 17; that both obey the same equation: Antypov & Elliott, EPL
+// 94, 2011, eq. 7).
 #pragma once
-
-#include <cmath>
 
 #include "dem/contact/numeric.h"
 
 namespace interstice::dem {
 
-/// 2 sqrt(5/6) |beta| with beta = ln e / sqrt(ln^2 e + pi^2); the limit 2 sqrt(5/6) at e = 0, and 0 at e = 1.
-inline double damping_coefficient(double restitution) {
-  const double limit = 2 * std::sqrt(5.0 / 6.0);
-  if (restitution <= 0) return limit;
-  const double log_e = std::log(restitution);
-  return limit * -log_e / std::sqrt(log_e * log_e + M_PI * M_PI);
-}
+/// zeta at which spring and dashpot return e when they may attract until the bodies part:
+/// zeta = -ln e / sqrt(ln^2 e + pi^2); 1 (critical) at e = 0.
+double damping_ratio(double restitution);
+
+/// Restitution when the force is cut off at zero (Schwager & Poeschel, Granular Matter 9, 2007).
+double clipped_restitution(double damping_ratio);
+
+/// The zeta at which that is e, at most kLargestClippedRatio: nothing returns less than
+/// clipped_restitution(kLargestClippedRatio) = 0.0238.
+double clipped_damping_ratio(double restitution);
+inline constexpr double kLargestClippedRatio = 3;
 
 /// Dashpot coefficient gamma = coefficient * sqrt(S m*) [N s/m], S the tangent stiffness.
 template <class T>

@@ -1,5 +1,7 @@
-// Tangential spring with history and Coulomb limit (Mindlin 1949 no-slip stiffness; Cundall & Strack 1979 for
-// the incremental form; Johnson, Contact Mechanics, 1985, eq. 7.43).
+// Tangential spring with history and Coulomb limit: stiffness of Mindlin (J. Appl. Mech. 16, 1949, no slip;
+// Johnson, Contact Mechanics, 1985, eq. 7.43), incremental force of Cundall & Strack (1979), lessened with
+// the contact when it unloads so that no energy is made (Thornton, Cummins & Cleary, Powder Technol. 233,
+// 2013).
 #pragma once
 
 #include "base/vec3.h"
@@ -7,31 +9,57 @@
 
 namespace interstice::dem {
 
+/// What a tangential contact remembers.
 template <class T>
-struct TangentialForce {
-  Vec3<T> force;         // [N]
-  Vec3<T> displacement;  // the spring after this step [m]
+struct TangentialSpring {
+  Vec3<T> force;    // of the spring on the first body [N]
+  T stiffness = 0;  // with which that was stored [N/m]; 0 before the first step of a contact
 };
 
-/// `displacement` is the spring before this step. It is turned into the present tangent plane, lengthened by
-/// `velocity * dt`, and shortened again where spring and dashpot together exceed `limit` = friction * |F_n|.
-/// `stiffness` = 8 G* sqrt(R* overlap) [N/m].
 template <class T>
-INTERSTICE_HD inline TangentialForce<T> mindlin(const Vec3<T>& displacement, const Vec3<T>& normal,
-                                                const Vec3<T>& velocity, const T& dt, const T& stiffness,
-                                                const T& dashpot, const T& limit) {
-  const Vec3<T> in_plane = displacement - dot(displacement, normal) * normal;
-  const Vec3<T> spring = in_plane + dt * velocity;
-  const Vec3<T> trial = -(stiffness * spring) - dashpot * velocity;
+struct TangentialForce {
+  Vec3<T> force;               // on the first body [N]
+  TangentialSpring<T> spring;  // after this step
+  T slip_heat;                 // lost to slip and to the changing contact in this step [J]
+  T damping_heat;              // lost in the dashpot in this step [J]
+};
+
+/// The spring's force is turned into the present tangent plane, lessened in proportion when the stiffness has
+/// fallen, and changed by `-stiffness * velocity * dt`. Where it and the dashpot together exceed `limit`
+/// = friction * |F_n|, the contact slides: the force is `limit`, the spring holds just that, and the dashpot
+/// rests. `stiffness` = 8 G* a [N/m], a the contact radius.
+template <class T>
+INTERSTICE_HD inline TangentialForce<T> mindlin_force(const TangentialSpring<T>& old, const Vec3<T>& normal,
+                                                      const Vec3<T>& velocity, const T& dt,
+                                                      const T& stiffness, const T& dashpot, const T& limit) {
+  const auto unloads = stiffness < old.stiffness;
+  const T lessened = select(unloads, stiffness / select(unloads, old.stiffness, T(1)), T(1));
+  const Vec3<T> kept = lessened * (old.force - dot(old.force, normal) * normal);
+  const Vec3<T> spring = kept - (stiffness * dt) * velocity;
+  const Vec3<T> trial = spring - dashpot * velocity;
   const T magnitude = norm(trial);
-  const auto slips = magnitude > limit;
-  const T scale = limit / select(slips, magnitude, T(1));
-  const Vec3<T> sliding = scale * trial;
-  const Vec3<T> relaxed = (T(-1) / stiffness) * (sliding + dashpot * velocity);
-  return {{select(slips, sliding.x, trial.x), select(slips, sliding.y, trial.y),
-           select(slips, sliding.z, trial.z)},
-          {select(slips, relaxed.x, spring.x), select(slips, relaxed.y, spring.y),
-           select(slips, relaxed.z, spring.z)}};
+  const auto slides = magnitude > limit;
+  const T scale = limit / select(slides, magnitude, T(1));
+  TangentialForce<T> out;
+  out.force = select(slides, scale * trial, trial);
+  out.spring = {select(slides, out.force, spring), stiffness};
+
+  const T compliance = T(1) / max_of(stiffness, T(1e-30));  // a contact of zero overlap has no stiffness
+  const Vec3<T> slip = compliance * (out.spring.force - spring);
+  const auto remembers = old.stiffness > T(0);
+  const T stored = dot(old.force, old.force) / select(remembers, old.stiffness, T(1));
+  const T relaxed = select(remembers, stored, T(0)) - compliance * dot(kept, kept);
+  out.slip_heat = T(0.5) * (relaxed - dot(kept + out.spring.force, slip));
+  out.damping_heat = select(slides, T(0), dashpot * dt * dot(velocity, velocity));
+  return out;
+}
+
+/// Energy in the spring [J].
+template <class T>
+INTERSTICE_HD inline T spring_energy(const TangentialSpring<T>& spring) {
+  const auto remembers = spring.stiffness > T(0);
+  return select(remembers,
+                T(0.5) * dot(spring.force, spring.force) / select(remembers, spring.stiffness, T(1)), T(0));
 }
 
 }  // namespace interstice::dem

@@ -20,4 +20,22 @@ INTERSTICE_HD inline T sphere_plane_area(const T& r, const T& overlap) {
   return T(M_PI) * overlap * (T(2) * r - overlap);
 }
 
+/// Attraction k A [N], k the cohesion energy density [J/m^3].
+template <class T>
+INTERSTICE_HD inline T sjkr_attraction(const T& energy_density, const T& area) {
+  return energy_density * area;
+}
+
+/// Integral of sphere_sphere_area over the overlap [m^3].
+template <class T>
+INTERSTICE_HD inline T sphere_sphere_area_integral(const T& a, const T& b, const T& d, const T& overlap) {
+  return T(0.25 * M_PI) * square(overlap) * (a + b - overlap / T(3) - square(a - b) / d);
+}
+
+/// Integral of sphere_plane_area over the overlap [m^3].
+template <class T>
+INTERSTICE_HD inline T sphere_plane_area_integral(const T& r, const T& overlap) {
+  return T(M_PI) * square(overlap) * (r - overlap / T(3));
+}
+
 }  // namespace interstice::dem

@@ -14,7 +14,8 @@ int main() {
   model.domain = {{-1e-3, -1e-3, -1e-3}, {1e-3, 1e-3, 1e-3}};
   model.materials = {{8200, 1e7, 0.3}};
   model.pairs = {{0.35, 0.3, 0.005, 0}};
-  model.features = {true, true, false, false};
+  model.laws = {.tangential = interstice::dem::TangentialLaw::mindlin,
+                .rolling = interstice::dem::RollingLaw::cdt};
   model.walls = {{Plane{{0, 0, 0}, {0, 0, 1}}, 0}};
   dem::Simulation simulation(model, 1e-7);
   simulation.add_grains(std::vector<dem::NewGrain>{{{0, 0, 30e-6}, 20e-6, {}, {}, 0, 0}});

@@ -7,18 +7,23 @@
 namespace interstice::dem::testing {
 
 /// One material, everything modelled, a wide open domain without gravity.
-inline Model plain_model(const Material& material, const PairCoefficients& pair, const Features& features) {
+inline Model plain_model(const Material& material, const PairCoefficients& pair, const Laws& laws) {
   Model m;
   m.domain = {{-1, -1, -1}, {1, 1, 1}};
   m.gravity = {0, 0, 0};
   m.materials = {material};
   m.pairs = {pair};
-  m.features = features;
+  m.laws = laws;
   return m;
 }
 
 inline Material powder() { return {8200, 1e9, 0.3}; }
-inline Features everything() { return {true, true, true, false}; }
+inline Laws with_friction() { return {.tangential = TangentialLaw::mindlin}; }
+inline Laws with_rolling() { return {.tangential = TangentialLaw::mindlin, .rolling = RollingLaw::cdt}; }
+inline Laws with_sjkr() { return {.cohesion = CohesionLaw::sjkr}; }
+inline Laws everything() {
+  return {.tangential = TangentialLaw::mindlin, .rolling = RollingLaw::cdt, .cohesion = CohesionLaw::sjkr};
+}
 
 /// A loose random cloud of grains of 10 to 65 um above a floor, falling and colliding: all laws at work.
 inline Simulation falling_cloud(std::size_t count, const SimulationOptions& options = {}) {

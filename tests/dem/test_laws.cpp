@@ -11,7 +11,7 @@ namespace {
 
 // shared references: Chung & Ooi (2011) test 1, glass spheres of 10 mm at 2 x 10 m/s.
 TEST(Hertz, ForceAtTheLargestOverlapOfAKnownImpact) {
-  const PairConstants c = derive_pair_constants({2800, 4.8e10, 0.2}, {2800, 4.8e10, 0.2}, {});
+  const PairConstants<double> c = derive_pair_constants({2800, 4.8e10, 0.2}, {2800, 4.8e10, 0.2}, {});
   EXPECT_NEAR(c.effective_modulus, 25e9, 1);  // E / (2 (1 - nu^2)), exact
   const double overlap = 274.113e-6, radius = 5e-3;
   const double force =
@@ -30,22 +30,45 @@ TEST(Hertz, StiffnessIsTheSlopeOfTheForce) {
 }
 
 TEST(PairConstants, MindlinShearModulusOfEqualBodies) {
-  const PairConstants c = derive_pair_constants({1, 1e9, 0.3}, {1, 1e9, 0.3}, {});
+  const PairConstants<double> c = derive_pair_constants({1, 1e9, 0.3}, {1, 1e9, 0.3}, {});
   const double shear = 1e9 / (2 * 1.3);
-  EXPECT_NEAR(c.shear_modulus, shear / (2 * (2 - 0.3)), 1e-3);  // Johnson eq. 7.42: G* = G / (2 (2 - nu))
+  // Johnson eq. 7.42: G* = G / (2 (2 - nu)); the ratio of stiffnesses is 4 G*/E* = 2 (1 - nu)/(2 - nu).
+  EXPECT_NEAR(c.shear_ratio * c.effective_modulus / 4, shear / (2 * (2 - 0.3)), 1e-3);
+  EXPECT_NEAR(c.shear_ratio, 2 * 0.7 / 1.7, 1e-15);
 }
 
 TEST(PairConstants, ARigidPartnerLeavesTheSoftOne) {
-  const PairConstants c = derive_pair_constants({1, 1e9, 0.3}, {1, 1e18, 0.3}, {});
+  const PairConstants<double> c = derive_pair_constants({1, 1e9, 0.3}, {1, 1e18, 0.3}, {});
   EXPECT_NEAR(c.effective_modulus * 0.91 / 1e9, 1, 2e-9);  // the moduli are 1e9 apart
 }
 
 TEST(Damping, AgreesWithTheClosedFormAtBothEnds) {
-  EXPECT_EQ(damping_coefficient(1), 0);
-  EXPECT_NEAR(damping_coefficient(0), 2 * std::sqrt(5.0 / 6), 1e-15);
-  // alpha = sqrt(5) |beta| of the reference table relates to the coefficient c by K delta^1/4: c sqrt(3/2).
-  EXPECT_NEAR(damping_coefficient(0.35) * std::sqrt(1.5), 0.70870, 5e-6);
-  EXPECT_NEAR(damping_coefficient(0.9) * std::sqrt(1.5), 0.07495, 5e-6);
+  EXPECT_EQ(damping_ratio(1), 0);
+  EXPECT_EQ(damping_ratio(0), 1);
+  // alpha = sqrt(5) zeta of the reference table.
+  EXPECT_NEAR(damping_ratio(0.35) * std::sqrt(5.0), 0.70870, 5e-6);
+  EXPECT_NEAR(damping_ratio(0.9) * std::sqrt(5.0), 0.07495, 5e-6);
+  // Hertz: the coefficient of sqrt(S m*) is 2 sqrt(5/6) zeta; Hooke: 2 zeta.
+  const PairCoefficients e{.restitution = 0.35};
+  const Material m{1, 1e9, 0.3};
+  EXPECT_NEAR(derive_pair_constants(m, m, e).damping * std::sqrt(1.5), 0.70870, 5e-6);
+  EXPECT_NEAR(derive_pair_constants(m, m, e, NormalLaw::hooke).damping, 2 * damping_ratio(0.35), 1e-15);
+}
+
+// Reference table: what is returned when the force is cut off at zero (integrated there; four digits).
+TEST(Damping, ClippedRestitutionIsTheTables) {
+  const double table[][2] = {{0.1, 0.2527}, {0.2, 0.3249}, {0.35, 0.4342}, {0.5, 0.5503},
+                             {0.7, 0.7182}, {0.8, 0.8081}, {0.9, 0.9020}};
+  for (const auto& [set, realised] : table)
+    EXPECT_NEAR(clipped_restitution(damping_ratio(set)), realised, 6e-5) << set;
+  EXPECT_NEAR(clipped_restitution(damping_ratio(0)), std::exp(-2.0), 1e-12);
+  EXPECT_EQ(clipped_restitution(0), 1);
+}
+
+TEST(Damping, ClippedRatioInvertsClippedRestitution) {
+  for (const double e : {0.03, 0.1, 0.1353, 0.14, 0.35, 0.7, 0.99, 1.0})
+    EXPECT_NEAR(clipped_restitution(clipped_damping_ratio(e)), e, 1e-9) << e;
+  EXPECT_EQ(clipped_damping_ratio(0), kLargestClippedRatio);
 }
 
 TEST(Sjkr, EqualSpheresIntersectInTheExactCircle) {
@@ -67,7 +90,7 @@ TEST(Sjkr, SpherePlaneCircle) {
 // Pull-off of paper 004's median pair: 6.64 nN, 2.58 times its weight (three digits in the reference).
 TEST(Sjkr, PullOffOfTheMedianPairOfPaper004) {
   const double r = 19.7e-6, k = 1e6;
-  const PairConstants c = derive_pair_constants({8200, 1e9, 0.3}, {8200, 1e9, 0.3}, {0.35, 0, 0, k});
+  const PairConstants<double> c = derive_pair_constants({8200, 1e9, 0.3}, {8200, 1e9, 0.3}, {0.35, 0, 0, k});
   double lowest = 0;
   for (double overlap = 1e-11; overlap < 2e-9; overlap += 1e-12) {
     ContactKinematics<double> kin{};
@@ -76,44 +99,104 @@ TEST(Sjkr, PullOffOfTheMedianPairOfPaper004) {
     kin.effective_radius = 0.5 * r;
     kin.effective_mass = 1;
     kin.area = sphere_sphere_area(r, r, 2 * r - overlap, overlap);
-    const auto f = evaluate_contact<ContactFeatures<false, false, true>>(kin, c, {}, 1e-9, false);
+    const auto f = evaluate_contact(Laws{.cohesion = CohesionLaw::sjkr}, kin, c, {}, {1e-9, 1e-3});
     lowest = std::min(lowest, f.force.x);
   }
   EXPECT_NEAR(-lowest, 6.64e-9, 0.01e-9);
 }
 
+/// A spring that holds `force`, stored at the stiffness 10 N/m.
+TangentialSpring<double> holding(const Vec3d& force) { return {force, 10}; }
+
 TEST(Mindlin, SticksBelowTheLimitAndSlidesAtIt) {
   const Vec3d n{0, 0, 1};
-  const auto stick = mindlin<double>({1e-9, 0, 0.5e-9}, n, {0, 0, 0}, 1e-8, 10, 0, 1);
-  EXPECT_EQ(stick.displacement.z, 0);  // turned into the tangent plane
+  const auto stick = mindlin_force<double>(holding({-1e-8, 0, 0.5e-8}), n, {0, 0, 0}, 1e-8, 10, 0, 1);
+  EXPECT_EQ(stick.force.z, 0);  // turned into the tangent plane
   EXPECT_DOUBLE_EQ(stick.force.x, -1e-8);
-  const auto slide = mindlin<double>({3e-9, 4e-9, 0}, n, {0, 0, 0}, 1e-8, 10, 0, 1e-8);
+  const auto slide = mindlin_force<double>(holding({-3e-8, -4e-8, 0}), n, {0, 0, 0}, 1e-8, 10, 0, 1e-8);
   EXPECT_NEAR(norm(slide.force), 1e-8, 1e-23);
-  EXPECT_NEAR(slide.displacement.x / slide.displacement.y, 0.75, 1e-15);  // its direction is kept
-  EXPECT_NEAR(norm(slide.displacement), 1e-9, 1e-24);                     // what the limit can hold
+  EXPECT_NEAR(slide.force.x / slide.force.y, 0.75, 1e-15);  // its direction is kept
+  EXPECT_EQ(norm(slide.spring.force - slide.force), 0);     // the spring holds what the limit can hold
+}
+
+TEST(Mindlin, LoadsByStiffnessTimesSlipAndOpposesIt) {
+  const auto f = mindlin_force<double>({}, {0, 0, 1}, {2, -1, 0}, 1e-8, 10, 0, 1);
+  EXPECT_DOUBLE_EQ(f.force.x, -10 * 2 * 1e-8);
+  EXPECT_DOUBLE_EQ(f.force.y, 10 * 1e-8);
 }
 
 TEST(Mindlin, FrictionDoesNotDependOnOrientation) {
   const double limit = 1e-8;
   for (double angle = 0.1; angle < 6; angle += 0.7) {
     const Vec3d along{std::cos(angle), std::sin(angle), 0};
-    const auto f = mindlin<double>(1e-8 * along, {0, 0, 1}, {0, 0, 0}, 1e-8, 10, 0, limit);
+    const auto f = mindlin_force<double>(holding(-1e-7 * along), {0, 0, 1}, {0, 0, 0}, 1e-8, 10, 0, limit);
     EXPECT_NEAR(dot(f.force, along), -limit, 1e-22);
   }
 }
 
+// Thornton, Cummins & Cleary (2013): with the displacement held, the force stays while the contact loads and
+// falls with the stiffness while it unloads: no cycle of the normal load makes energy.
+TEST(Mindlin, IsRescaledOnUnloadingOnly) {
+  const auto loaded = mindlin_force<double>(holding({1e-8, 0, 0}), {0, 0, 1}, {0, 0, 0}, 1e-8, 20, 0, 1);
+  EXPECT_DOUBLE_EQ(loaded.force.x, 1e-8);
+  const auto unloaded = mindlin_force<double>(loaded.spring, {0, 0, 1}, {0, 0, 0}, 1e-8, 5, 0, 1);
+  EXPECT_DOUBLE_EQ(unloaded.force.x, 0.25e-8);
+  EXPECT_GE(loaded.slip_heat, 0);
+  EXPECT_GE(unloaded.slip_heat, 0);
+  const double before = spring_energy(holding({1e-8, 0, 0}));
+  EXPECT_NEAR(loaded.slip_heat + unloaded.slip_heat + spring_energy(unloaded.spring), before, 1e-15 * before);
+}
+
+TEST(Mindlin, HeatIsWorkLessWhatIsStored) {
+  const double dt = 1e-8, k = 10, gamma = 1e-8, limit = 3e-8;
+  const Vec3d v{4, 1, 0}, n{0, 0, 1};
+  TangentialSpring<double> spring = holding({1e-8, -1e-8, 0});
+  for (int step = 0; step < 5; ++step) {
+    const auto t = mindlin_force<double>(spring, n, v, dt, k, gamma, limit);
+    const bool slides = norm(t.force) > 0.999999 * limit;
+    const Vec3d mean = 0.5 * (spring.force + t.spring.force);
+    const double work = -dt * dot(mean, v) + (slides ? 0 : dt * gamma * dot(v, v));
+    const double kept = spring_energy(t.spring) - spring_energy(spring);
+    EXPECT_NEAR(t.slip_heat + t.damping_heat, work - kept, 1e-12 * work);
+    spring = t.spring;
+  }
+}
+
+TEST(Slider, IsCoulombAboveTheThresholdAndInProportionBelow) {
+  const double limit = 1e-8, threshold = 1e-3, mass = 1e-9, dt = 1e-7;
+  EXPECT_NEAR(norm(slider_force<double>({0.3, 0.4, 0}, limit, threshold, mass, dt)), limit, 1e-23);
+  EXPECT_NEAR(slider_force<double>({1e-4, 0, 0}, limit, threshold, mass, dt).x, -0.1 * limit, 1e-24);
+  EXPECT_EQ(norm(slider_force<double>({0, 0, 0}, limit, threshold, mass, dt)), 0);
+}
+
+TEST(Slider, NeverReversesTheSlipInAStep) {
+  const double limit = 1, mass = 1e-9, dt = 1e-6, v = 1e-3;  // the limit alone would give 3.5e3 m/s
+  const double taken = norm(slider_force<double>({v, 0, 0}, limit, 1e-9, mass, dt)) * dt / (2.0 / 7 * mass);
+  EXPECT_NEAR(taken / v, kSliderShare, 1e-12);
+}
+
 TEST(Cdt, TorqueIsConstantOpposesRollingAndLeavesTwistingAlone) {
   const Vec3d n{0, 0, 1};
-  const Vec3d slow = cdt_torque<double>({0, 2, 0}, n, 0.01, 3, 5e-6),
-              fast = cdt_torque<double>({0, 200, 0}, n, 0.01, 3, 5e-6);
-  EXPECT_NEAR(slow.y, -0.01 * 3 * 5e-6, 1e-22);
+  const double limit = 0.01 * 3 * 5e-6;
+  const Vec3d slow = cdt_torque<double>({0, 2, 0}, n, limit),
+              fast = cdt_torque<double>({0, 200, 0}, n, limit);
+  EXPECT_NEAR(slow.y, -limit, 1e-22);
   EXPECT_NEAR(fast.y, slow.y, 1e-22);
-  EXPECT_EQ(norm(cdt_torque<double>({0, 0, 9}, n, 0.01, 3, 5e-6)), 0);
-  EXPECT_EQ(norm(cdt_torque<double>({0, 0, 0}, n, 0.01, 3, 5e-6)), 0);
+  EXPECT_EQ(norm(cdt_torque<double>({0, 0, 9}, n, limit)), 0);
+  EXPECT_EQ(norm(cdt_torque<double>({0, 0, 0}, n, limit)), 0);
+}
+
+TEST(Epsd2, IsASpringUpToTheLimitAndIgnoresTwisting) {
+  const Vec3d n{0, 0, 1};
+  const auto little = epsd2_torque<double>({}, n, {0, 2, 7}, 1e-6, 1e-3, 1);
+  EXPECT_DOUBLE_EQ(little.force.y, -1e-3 * 2 * 1e-6);
+  EXPECT_EQ(little.force.z, 0);
+  const auto much = epsd2_torque<double>(little.spring, n, {0, 2e9, 0}, 1e-6, 1e-3, 1e-2);
+  EXPECT_NEAR(much.force.y, -1e-2, 1e-16);
 }
 
 TEST(Contact, ClippingRemovesTensionButNotCohesion) {
-  const PairConstants c =
+  const PairConstants<double> c =
       derive_pair_constants(Material{8200, 1e9, 0.3}, Material{8200, 1e9, 0.3}, {0.1, 0, 0, 1e6});
   ContactKinematics<double> kin{};
   kin.normal = {1, 0, 0};
@@ -121,12 +204,12 @@ TEST(Contact, ClippingRemovesTensionButNotCohesion) {
   kin.effective_radius = 1e-5;
   kin.effective_mass = 1e-10;
   kin.velocity = {1, 0, 0};  // separating fast: the dashpot pulls
-  using Plain = ContactFeatures<false, false, false>;
-  EXPECT_LT((evaluate_contact<Plain>(kin, c, {}, 1e-9, false).force.x), 0);
-  EXPECT_EQ((evaluate_contact<Plain>(kin, c, {}, 1e-9, true).force.x), 0);
+  EXPECT_LT(evaluate_contact(Laws{}, kin, c, {}, {1e-9, 1e-3}).force.x, 0);
+  EXPECT_EQ(evaluate_contact(Laws{.clip = true}, kin, c, {}, {1e-9, 1e-3}).force.x, 0);
   kin.area = 1e-14;
-  EXPECT_DOUBLE_EQ((evaluate_contact<ContactFeatures<false, false, true>>(kin, c, {}, 1e-9, true).force.x),
-                   -1e-8);
+  EXPECT_DOUBLE_EQ(
+      evaluate_contact(Laws{.clip = true, .cohesion = CohesionLaw::sjkr}, kin, c, {}, {1e-9, 1e-3}).force.x,
+      -1e-8);
 }
 
 // docs: Rayleigh time of the smallest grain of paper 004, 39.2 ns.

@@ -45,7 +45,7 @@ TEST(Flight, IsExactUnderGravity) {
 /// contact time, first touched at `phase` of a step.
 double rebound(double restitution, double fraction, double phase, bool clip, double speed = 0.1) {
   const double r = 20e-6;
-  Model m = plain_model(powder(), {restitution, 0, 0, 0}, {false, false, false, clip});
+  Model m = plain_model(powder(), {restitution, 0, 0, 0}, Laws{.clip = clip});
   const double mass = 4.0 / 3 * M_PI * r * r * r * 8200;
   const double contact = collision_time(mass / 2, r / 2, 1e9 / (2 * 0.91), speed);
   Simulation sim(m, fraction * contact);
@@ -141,9 +141,9 @@ TEST(Impact, LargestOverlapAndForceOfChungAndOoiTestOne) {
 }
 
 /// A 1 mm sphere on a floor that stays put vertically: it starts at its equilibrium overlap.
-Simulation rolling(const PairCoefficients& pair, const Features& features, double v0) {
+Simulation rolling(const PairCoefficients& pair, const Laws& laws, double v0) {
   const double r = 1e-3;
-  Model m = plain_model({2500, 1e8, 0.3}, pair, features);
+  Model m = plain_model({2500, 1e8, 0.3}, pair, laws);
   m.gravity = {0, 0, -9.81};
   m.walls = {{Plane{{0, 0, 0}, {0, 0, 1}}, 0}};
   const double mass = 4.0 / 3 * M_PI * r * r * r * 2500;
@@ -155,7 +155,7 @@ Simulation rolling(const PairCoefficients& pair, const Features& features, doubl
 
 TEST(Friction, SlidingTurnsIntoRollingAtFiveSeventhsOfTheSpeed) {
   const double v0 = 1, mu = 0.3;
-  Simulation sim = rolling({0.5, mu, 0, 0}, {true, false, false, false}, v0);
+  Simulation sim = rolling({0.5, mu, 0, 0}, testing::with_friction(), v0);
   sim.advance(120000);  // t = 2 v0 / (7 mu g) = 97.08 ms, and some
   const GrainColumns c = columns(sim);
   EXPECT_NEAR(c.vx[0], 5.0 / 7 * v0, 2e-4);    // overlap shortens the arm by 1e-4 relative
@@ -166,7 +166,7 @@ TEST(Friction, SlidingTurnsIntoRollingAtFiveSeventhsOfTheSpeed) {
 
 TEST(Rolling, ConstantTorqueStopsTheSphereWhereTheClosedFormSays) {
   const double v0 = 0.1, mu_r = 0.02;
-  Simulation sim = rolling({0.5, 0.5, mu_r, 0}, {true, true, false, false}, v0);
+  Simulation sim = rolling({0.5, 0.5, mu_r, 0}, testing::with_rolling(), v0);
   // Start it rolling: a spin that matches.
   Model m = sim.model();
   Simulation spinning(m, 1e-6);
@@ -194,7 +194,7 @@ TEST(Boundaries, AGrainThatLeavesIsCountedAndGone) {
 
 TEST(Boundaries, PeriodicPairsCollideThroughTheFace) {
   const double r = 20e-6;
-  Model m = plain_model(powder(), {0.35, 0.3, 0.01, 0}, {true, true, false, false});
+  Model m = plain_model(powder(), {0.35, 0.3, 0.01, 0}, testing::with_rolling());
   m.domain = {{0, 0, 0}, {4e-4, 4e-4, 4e-4}};
   m.boundary = {AxisBoundary::periodic, AxisBoundary::open, AxisBoundary::open};
   Simulation across(m, 1e-8);
@@ -239,7 +239,7 @@ TEST(Walls, AMovingBoxPushesAGrainAtItsSpeed) {
 
 /// A hundred grains in the way of a box that moves at 10 m/s, after the box has come 0.4 mm.
 Simulation swept_by_a_fast_box(double step) {
-  Model m = plain_model(powder(), {0.35, 0.3, 0.005, 0}, {true, true, false, false});
+  Model m = plain_model(powder(), {0.35, 0.3, 0.005, 0}, testing::with_rolling());
   m.domain = {{-1e-2, -1e-2, -1e-2}, {1e-2, 1e-2, 1e-2}};
   m.walls = {{Box{{-1e-3, -1e-3, -1e-3}, {0, 1e-3, 1e-3}}, 0}};
   Simulation sim(m, step);
@@ -283,7 +283,7 @@ TEST(Guards, CoincidentCentresPartWithoutNan) {
 TEST(Cohesion, ReturnsAllEnergyWithoutDamping) {
   // SJKR has no hysteresis: e = 1 comes back whole (1e-4 at 0.02 t_c; here 0.002 t_c).
   const double r = 20e-6, v = 0.02;
-  Model m = plain_model(powder(), {1, 0, 0, 1e6}, {false, false, true, false});
+  Model m = plain_model(powder(), {1, 0, 0, 1e6}, testing::with_sjkr());
   const double mass = 4.0 / 3 * M_PI * r * r * r * 8200;
   Simulation sim(m, 0.002 * collision_time(mass / 2, r / 2, 1e9 / (2 * 0.91), v));
   sim.add_grains(std::vector<NewGrain>{grain({-r - 1e-10, 0, 0}, r, {v / 2, 0, 0}),
@@ -295,7 +295,7 @@ TEST(Cohesion, ReturnsAllEnergyWithoutDamping) {
 
 TEST(Cohesion, HoldsASlowPairTogether) {
   const double r = 20e-6;
-  Model m = plain_model(powder(), {0.35, 0, 0, 1e6}, {false, false, true, false});
+  Model m = plain_model(powder(), {0.35, 0, 0, 1e6}, testing::with_sjkr());
   Simulation sim(m, 2e-8);
   sim.add_grains(
       std::vector<NewGrain>{grain({-r, 0, 0}, r, {1e-5, 0, 0}), grain({r, 0, 0}, r, {-1e-5, 0, 0})});
@@ -307,7 +307,7 @@ TEST(Cohesion, HoldsASlowPairTogether) {
 }
 
 TEST(Conservation, MomentumOfAGasOfGrainsStays) {
-  Model m = plain_model(powder(), {0.9, 0.5, 0.01, 0}, {true, true, false, false});
+  Model m = plain_model(powder(), {0.9, 0.5, 0.01, 0}, testing::with_rolling());
   m.domain = {{0, 0, 0}, {4e-4, 4e-4, 4e-4}};
   m.boundary = {AxisBoundary::periodic, AxisBoundary::periodic, AxisBoundary::periodic};
   Simulation sim(m, 1e-8);

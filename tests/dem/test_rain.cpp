@@ -19,7 +19,7 @@ Rain rain_of(std::size_t n, std::uint64_t seed) {
 }
 
 Simulation empty_box() {
-  Model m = testing::plain_model(testing::powder(), {0.35, 0.3, 0.005, 0}, {true, true, false, false});
+  Model m = testing::plain_model(testing::powder(), {0.35, 0.3, 0.005, 0}, testing::with_rolling());
   m.gravity = {0, 0, -9.81};
   m.walls = {{Plane{{0, 0, 0}, {0, 0, 1}}, 0}, {Plane{{0, 0, 0}, {1, 0, 0}}, 0}};
   return Simulation(m, 2e-8);

@@ -8,7 +8,7 @@ namespace {
 
 TEST(Statistics, ARestingColumnPressesWithItsWeight) {
   const double r = 50e-6;
-  Model m = testing::plain_model({2500, 1e7, 0.3}, {0.2, 0.5, 0, 0}, {true, false, false, false});
+  Model m = testing::plain_model({2500, 1e7, 0.3}, {0.2, 0.5, 0, 0}, testing::with_friction());
   m.gravity = {0, 0, -9.81};
   m.walls = {{Plane{{0, 0, 0}, {0, 0, 1}}, 0}};
   Simulation sim(m, 2e-7);

@@ -1,0 +1,61 @@
+// The force loops of a step, chosen once per simulation: by the laws that the scene names and by the number
+// type in which forces are computed.
+#pragma once
+
+#include "dem/contact/contact.h"
+#include "dem/contacts.h"
+#include "dem/grains.h"
+#include "dem/model.h"
+#include "dem/neighbours.h"
+
+namespace interstice::dem {
+
+enum class Precision {
+  real64,  ///< everything in double
+  mixed,   ///< positions, overlaps and motion in double; laws and forces in single
+};
+
+/// What the force loops see: trivially copyable, owns nothing. Memories are null where the laws keep none,
+/// heat is null where no energies are kept.
+struct StepView {
+  const GrainRow* rows;
+  SearchSpace space;
+  double dt;                                     // [s]
+  double slider_velocity;                        // [m/s]
+  const PairConstants<double>* constants;        // materials x materials
+  const PairConstants<float>* constants_single;  // the same
+  std::size_t materials;
+
+  const PairRef* pairs;
+  ContactState* state;
+  TangentialSpring<double>* sliding;
+  TangentialSpring<double>* rolling;
+  PairResult* results;
+  PairHeat* heat;
+
+  const Shape* walls;
+  const Vec3d* wall_velocities;
+  const Wall* wall_models;
+};
+
+/// What walls do to one grain in a step.
+struct WallTotals {
+  Vec3d force{0, 0, 0}, torque{0, 0, 0};  // [N], [N m]
+  PairHeat heat;                          // [J]
+  double power = 0;                       // of the walls' motion [W]
+};
+
+struct ForceKernels {
+  /// Evaluates the pairs [begin, end).
+  void (*pairs)(const Laws&, const StepView&, std::size_t begin, std::size_t end);
+  /// Evaluates one grain's wall contacts.
+  void (*walls)(const Laws&, const StepView&, const GrainRow&, std::span<WallContact>, WallTotals&);
+  bool generic;  // laws chosen at run time
+};
+
+/// The kernels of a listed combination, or the generic ones.
+ForceKernels find_kernels(const Laws& laws, Precision precision, bool energies);
+/// Is the combination listed?
+bool has_own_kernel(const Laws& laws);
+
+}  // namespace interstice::dem

@@ -1,0 +1,8 @@
+#include "dem/kernels/kernel_table.h"
+#include "dem/kernels/kernels_by_precision.h"
+
+namespace interstice::dem {
+
+ForceKernels kernels_in_single(const Laws& laws, bool energies) { return kernels_in<float>(laws, energies); }
+
+}  // namespace interstice::dem
