@@ -88,7 +88,9 @@ dem::Model model_of(const Vec3d& size, bool walls, bool cohesion, double softeni
   const double k = 1e6 * std::pow(softening, 2.0 / 3);  // keeps pull-off over weight
   const dem::PairCoefficients powder{0.35, 0.3, 0.005, k}, wall{0.35, 0.9, 0.005, k};
   m.pairs = {powder, wall, wall, powder};
-  m.features = {true, true, cohesion, false};
+  m.laws.tangential = dem::TangentialLaw::mindlin;
+  m.laws.rolling = dem::RollingLaw::cdt;
+  if (cohesion) m.laws.cohesion = dem::CohesionLaw::sjkr;
   m.walls = {{Plane{{0, 0, 0}, {0, 0, 1}}, 1}};
   if (!walls) {
     m.boundary = {dem::AxisBoundary::periodic, dem::AxisBoundary::periodic, dem::AxisBoundary::open};
@@ -146,7 +148,10 @@ Json spread(std::vector<double> values) {
 Json bench_steps(const Bed& bed, const BenchArguments& a) {
   const bool walls = !a.bed.empty() && a.tiles_x * a.tiles_y == 1;
   const dem::Model model = model_of(bed.size, walls, !a.no_cohesion, 1);
-  dem::Simulation sim(model, step_of(bed.grains, model), {a.compute.backend == "reference", 0});
+  dem::Simulation sim(
+      model, step_of(bed.grains, model),
+      {.reference = a.compute.backend == "reference",
+       .precision = a.compute.precision == "mixed" ? dem::Precision::mixed : dem::Precision::real64});
   sim.add_grains(bed.grains);
   sim.advance(20);
   std::vector<double> rates;
@@ -160,7 +165,7 @@ Json bench_steps(const Bed& bed, const BenchArguments& a) {
   Json j;
   j["grains"] = sim.grains();
   j["time_step_s"] = sim.time_step();
-  j["cohesion"] = model.features.cohesion;
+  j["cohesion"] = !a.no_cohesion;
   j["coordination"] = 2.0 * static_cast<double>(c.contacts) / static_cast<double>(sim.grains());
   j["listed_pairs_per_grain"] =
       static_cast<double>(sim.pair_contacts().pairs.size()) / static_cast<double>(sim.grains());
@@ -204,6 +209,7 @@ void bench(const BenchArguments& a) {
                  : a.compute.threads > 0          ? a.compute.threads
                                                   : tbb::info::default_concurrency();
   j["bed"] = !a.bed.empty() ? a.bed : a.equal_sizes ? "settled, equal 40 um" : "settled, 5 to 65 um";
+  j["precision"] = a.compute.precision;
   j["steps"] = bench_steps(bed, a);
   j["field"] = bench_field(bed, a);
   fmt::print("{}\n", j.dump(2));

@@ -10,6 +10,7 @@
 #include "apps/command.h"
 #include "coupling/scene/read_scene.h"
 #include "coupling/stream/build_model.h"
+#include "coupling/stream/contact_report.h"
 #include "coupling/stream/schedule.h"
 #include "coupling/stream/step_choice.h"
 
@@ -65,7 +66,41 @@ std::string duration(double s) {
   return fmt::format("{:.1f} days", s / 86400);
 }
 
-nlohmann::ordered_json as_json(const scene::Scene& scene, const stream::StepChoice& c, const Estimate& e) {
+nlohmann::ordered_json pair_json(const stream::PairReport& r) {
+  const auto finite = [](double v) {
+    return std::isfinite(v) ? nlohmann::ordered_json(v) : nlohmann::ordered_json(nullptr);
+  };
+  return {{"materials", {r.first, r.second}},
+          {"wall", r.wall},
+          {"median_diameter_m", r.diameter},
+          {"pull_off_force_N", r.pull_off},
+          {"bond_number", finite(r.bond)},
+          {"bond_number_smallest", finite(r.bond_smallest)},
+          {"bond_number_largest", finite(r.bond_largest)},
+          {"tabor_number", r.tabor},
+          {"sticking_speed_m_s", r.sticking_speed},
+          {"equilibrium_overlap_diameters", r.equilibrium_overlap},
+          {"impact_overlap_diameters", r.impact_overlap}};
+}
+
+void print_contacts(const stream::ContactReport& contacts) {
+  fmt::print("  contact laws    {} ({} kernel)\n", contacts.laws, contacts.own_kernel ? "own" : "generic");
+  for (const stream::PairReport& r : contacts.pairs) {
+    fmt::print("    {} on {}{}, at {:.3g} um: overlap on impact {:.2g} d", r.first, r.second,
+               r.wall ? " (wall)" : "", r.diameter * 1e6, r.impact_overlap);
+    if (r.pull_off > 0) {
+      fmt::print(
+          ", at rest {:.2g} d;\n      pull-off {:.3g} N, Bond {:.3g} ({:.3g} smallest, {:.3g} largest), "
+          "Tabor {:.2g}, sticks below {:.2g} m/s",
+          r.equilibrium_overlap, r.pull_off, r.bond, r.bond_smallest, r.bond_largest, r.tabor,
+          r.sticking_speed);
+    }
+    fmt::print("\n");
+  }
+}
+
+nlohmann::ordered_json as_json(const scene::Scene& scene, const stream::StepChoice& c,
+                               const stream::ContactReport& contacts, const Estimate& e) {
   nlohmann::ordered_json j;
   j["title"] = scene.title;
   j["particles"] = e.grains;
@@ -77,6 +112,10 @@ nlohmann::ordered_json as_json(const scene::Scene& scene, const stream::StepChoi
   j["collision_time_s"] =
       std::isfinite(c.limits.collision_time) ? nlohmann::ordered_json(c.limits.collision_time) : nullptr;
   j["collision_speed_m_s"] = c.speed;
+  j["laws"] = contacts.laws;
+  j["kernel"] = contacts.own_kernel ? "own" : "generic";
+  j["contacts"] = nlohmann::ordered_json::array();
+  for (const stream::PairReport& r : contacts.pairs) j["contacts"].push_back(pair_json(r));
   j["simulated_at_most_s"] = e.simulated_at_most;
   j["steps_at_most"] = e.steps_at_most;
   j["memory_bytes"] = e.memory;
@@ -87,7 +126,8 @@ nlohmann::ordered_json as_json(const scene::Scene& scene, const stream::StepChoi
   return j;
 }
 
-void print(const scene::Scene& scene, const stream::StepChoice& c, const Estimate& e) {
+void print(const scene::Scene& scene, const stream::StepChoice& c, const stream::ContactReport& contacts,
+           const Estimate& e) {
   fmt::print("{}\n", scene.title.empty() ? scene.file : scene.title);
   fmt::print("  particles       {:.0f}, {:.3g} to {:.3g} um\n", e.grains, e.smallest * 1e6, e.largest * 1e6);
   fmt::print("  time step       {:.4g} s, limited by {}\n", c.step, c.limited_by);
@@ -99,6 +139,7 @@ void print(const scene::Scene& scene, const stream::StepChoice& c, const Estimat
   } else {
     fmt::print("    collision time  none: nothing moves\n");
   }
+  print_contacts(contacts);
   fmt::print("  phases          {}, {:.4g} s at most, {:.4g} steps at most\n", scene.phases.size(),
              e.simulated_at_most, e.steps_at_most);
   fmt::print("  memory          about {:.0f} MB\n", e.memory / 1e6);
@@ -108,14 +149,17 @@ void print(const scene::Scene& scene, const stream::StepChoice& c, const Estimat
 void check(const CheckArguments& a) {
   std::vector<std::string> warnings;
   const scene::Scene scene = scene::read_scene(a.scene, a.overrides, &warnings);
-  const stream::StepChoice choice = stream::choose_step(scene, stream::build_model(scene));
+  const dem::Model model = stream::build_model(scene);
+  const stream::StepChoice choice = stream::choose_step(scene, model);
+  const stream::ContactReport contacts = stream::report_contacts(scene, model, choice.speed, choice.step);
   warnings.insert(warnings.end(), choice.warnings.begin(), choice.warnings.end());
+  warnings.insert(warnings.end(), contacts.warnings.begin(), contacts.warnings.end());
   for (const std::string& w : warnings) fmt::print(stderr, "warning: {}\n", w);
   const Estimate e = estimate(scene, choice.step);
   if (a.json) {
-    fmt::print("{}\n", as_json(scene, choice, e).dump(2));
+    fmt::print("{}\n", as_json(scene, choice, contacts, e).dump(2));
   } else {
-    print(scene, choice, e);
+    print(scene, choice, contacts, e);
   }
 }
 

@@ -31,7 +31,7 @@ bool is_ours(const std::filesystem::path& entry) {
 void add_compute_options(CLI::App& command, ComputeOptions& o) {
   command.add_option("--backend", o.backend,
                      "auto, cpu, cuda or reference (serial, neighbours by brute force)");
-  command.add_option("--precision", o.precision, "double or mixed");
+  command.add_option("--precision", o.precision, "double, or mixed (positions double, forces single)");
   command.add_option("--isa", o.isa, "instruction set: auto, or the one that this binary was built for");
   command.add_option("--threads", o.threads, "number of threads (default: all cores)");
   command.add_flag("--json", o.json, "print the result as one JSON object");
@@ -47,11 +47,9 @@ void apply_compute_options(const ComputeOptions& o) {
     errors.push_back(fmt::format(
         "--backend: '{}' is unknown; allowed: auto, cpu, reference; leave the option out", o.backend));
   }
-  if (o.precision == "mixed") {
-    errors.emplace_back("--precision: mixed is not in this version; allowed: double; leave the option out");
-  } else if (o.precision != "double") {
-    errors.push_back(
-        fmt::format("--precision: '{}' is unknown; allowed: double; leave the option out", o.precision));
+  if (o.precision != "double" && o.precision != "mixed") {
+    errors.push_back(fmt::format("--precision: '{}' is unknown; allowed: double, mixed; leave the option out",
+                                 o.precision));
   }
   if (o.isa != "auto" && o.isa != kBuildArch) {
     errors.push_back(

@@ -15,6 +15,7 @@
 #include "coupling/scene/read_scene.h"
 #include "coupling/scene/units.h"
 #include "coupling/stream/build_model.h"
+#include "coupling/stream/contact_report.h"
 #include "coupling/stream/run.h"
 #include "coupling/stream/run_report.h"
 
@@ -59,7 +60,9 @@ void run(const RunArguments& a) {
   }
   std::vector<std::string> warnings;
   const scene::Scene scene = scene::read_scene(a.scene, a.overrides, &warnings);
-  stream::choose_step(scene, stream::build_model(scene));  // refuses before anything is written
+  const dem::Model model = stream::build_model(scene);
+  const stream::StepChoice choice = stream::choose_step(scene, model);  // refuse before anything is written
+  stream::report_contacts(scene, model, choice.speed, choice.step);
   if (a.resume) {
     if (!std::filesystem::exists(std::filesystem::path(a.folder) / "checkpoint.h5")) {
       throw InputError(a.folder +
@@ -74,6 +77,8 @@ void run(const RunArguments& a) {
   options.resume = a.resume;
   options.reference = a.compute.backend == "reference";
   options.backend = options.reference ? "reference" : "cpu";
+  options.mixed = a.compute.precision == "mixed";
+  options.precision = a.compute.precision;
   options.isa = kBuildArch;
   options.figures = !a.no_figures;
   options.threads = options.reference       ? 1
@@ -87,8 +92,7 @@ void run(const RunArguments& a) {
   const stream::RunResult result = stream::run_scene(scene, options);
   bar.clear();
   if (a.compute.json) {
-    const auto step = stream::choose_step(scene, stream::build_model(scene));
-    fmt::print("{}\n", stream::run_report(scene, options, step, result).dump(2));
+    fmt::print("{}\n", stream::run_report(scene, options, choice, result).dump(2));
   } else {
     print_summary(result, a.folder);
   }

@@ -29,21 +29,40 @@ dem::Laws laws_of(const scene::Contact& c) {
   laws.normal = c.normal == scene::NormalLaw::hooke ? NormalLaw::hooke : NormalLaw::hertz;
   laws.clip = c.damping != scene::Damping::tension;
   switch (c.tangential) {
-    case scene::TangentialLaw::none: break;
-    case scene::TangentialLaw::slider: laws.tangential = TangentialLaw::slider; break;
-    case scene::TangentialLaw::mindlin: laws.tangential = TangentialLaw::mindlin; break;
+    case scene::TangentialLaw::none:
+      break;
+    case scene::TangentialLaw::slider:
+      laws.tangential = TangentialLaw::slider;
+      break;
+    case scene::TangentialLaw::mindlin:
+      laws.tangential = TangentialLaw::mindlin;
+      break;
   }
   switch (c.rolling) {
-    case scene::RollingLaw::none: break;
-    case scene::RollingLaw::cdt: laws.rolling = RollingLaw::cdt; break;
-    case scene::RollingLaw::epsd2: laws.rolling = RollingLaw::epsd2; break;
+    case scene::RollingLaw::none:
+      break;
+    case scene::RollingLaw::cdt:
+      laws.rolling = RollingLaw::cdt;
+      break;
+    case scene::RollingLaw::epsd2:
+      laws.rolling = RollingLaw::epsd2;
+      break;
   }
   switch (c.cohesion) {
-    case scene::CohesionLaw::none: break;
-    case scene::CohesionLaw::sjkr: laws.cohesion = CohesionLaw::sjkr; break;
-    case scene::CohesionLaw::jkr: laws.cohesion = CohesionLaw::jkr; break;
-    case scene::CohesionLaw::dmt: laws.cohesion = CohesionLaw::dmt; break;
-    case scene::CohesionLaw::van_der_waals: laws.cohesion = CohesionLaw::van_der_waals; break;
+    case scene::CohesionLaw::none:
+      break;
+    case scene::CohesionLaw::sjkr:
+      laws.cohesion = CohesionLaw::sjkr;
+      break;
+    case scene::CohesionLaw::jkr:
+      laws.cohesion = CohesionLaw::jkr;
+      break;
+    case scene::CohesionLaw::dmt:
+      laws.cohesion = CohesionLaw::dmt;
+      break;
+    case scene::CohesionLaw::van_der_waals:
+      laws.cohesion = CohesionLaw::van_der_waals;
+      break;
   }
   return laws;
 }
@@ -54,7 +73,8 @@ void derive_stiffness(const scene::Scene& scene, dem::Model& model) {
   if (c.normal != scene::NormalLaw::hooke || c.stiffness_rule == scene::StiffnessRule::given) return;
   double radius = 0, heaviest = 0;  // heaviest: r^3 rho
   for (const scene::Particles& p : scene.particles) {
-    const double r = 0.5 * largest_diameter(p), rho = model.materials[material_index(scene, p.material)].density;
+    const double r = 0.5 * largest_diameter(p),
+                 rho = model.materials[material_index(scene, p.material)].density;
     if (r * r * r * rho > heaviest) radius = r, heaviest = r * r * r * rho;
   }
   if (!(radius > 0)) return;  // no grains: nothing to press
@@ -133,7 +153,13 @@ dem::Model build_model(const scene::Scene& scene) {
   return model;
 }
 
-std::vector<PhasedRain> build_rain(const scene::Scene& scene) {
+dem::Model relative_to(const Vec3d& origin, dem::Model model) {
+  model.domain = {model.domain.lo - origin, model.domain.hi - origin};
+  for (dem::Wall& wall : model.walls) wall.shape = translated(wall.shape, -origin);
+  return model;
+}
+
+std::vector<PhasedRain> build_rain(const scene::Scene& scene, const Vec3d& origin) {
   std::vector<PhasedRain> all;
   for (std::size_t i = 0; i < scene.particles.size(); ++i) {
     const scene::Particles& p = scene.particles[i];
@@ -145,7 +171,7 @@ std::vector<PhasedRain> build_rain(const scene::Scene& scene) {
     phased.rain.radii = scene::sample_diameters(p.diameter, p.count, scene.seed, 2 * i);
     for (double& r : phased.rain.radii) r *= 0.5;
     phased.rain.random = Random(scene.seed, 2 * i + 1);
-    phased.rain.box = p.rain->box;
+    phased.rain.box = {p.rain->box.lo - origin, p.rain->box.hi - origin};
     phased.rain.velocity = p.rain->velocity;
     phased.rain.material = static_cast<std::uint16_t>(material_index(scene, p.material));
     all.push_back(std::move(phased));
@@ -153,13 +179,13 @@ std::vector<PhasedRain> build_rain(const scene::Scene& scene) {
   return all;
 }
 
-std::vector<dem::NewGrain> build_placed_grains(const scene::Scene& scene) {
+std::vector<dem::NewGrain> build_placed_grains(const scene::Scene& scene, const Vec3d& origin) {
   std::vector<dem::NewGrain> grains;
   for (const scene::Particles& p : scene.particles) {
     if (!p.list) continue;
     const auto material = static_cast<std::uint16_t>(material_index(scene, p.material));
     for (const scene::PlacedGrain& g : p.list->grains) {
-      grains.push_back({g.position, 0.5 * g.diameter, g.velocity, g.spin, material, 0});
+      grains.push_back({g.position - origin, 0.5 * g.diameter, g.velocity, g.spin, material, 0});
     }
   }
   return grains;

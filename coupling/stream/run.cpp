@@ -9,6 +9,7 @@
 #include "coupling/io/atomic_file.h"
 #include "coupling/io/trajectory.h"
 #include "coupling/scene/write_scene.h"
+#include "coupling/stream/contact_report.h"
 #include "coupling/stream/field_output.h"
 #include "coupling/stream/field_stream.h"
 #include "coupling/stream/run_report.h"
@@ -32,6 +33,7 @@ constexpr double kDefaultCheckpointSeconds = 60;
 constexpr double kPollSeconds = 0.2;
 // dt over sqrt(m/k): 0.2 is 0.05 of a collision time, 0.8 is 0.2 of it (docs/PHYSICS.md).
 constexpr double kWarnRatio = 0.2, kRefuseRatio = 0.8;
+constexpr double kRefuseFrequency = 2;  // velocity Verlet: stable where omega dt < 2
 
 class Run {
  public:
@@ -66,6 +68,7 @@ class Run {
   Clock::time_point started_ = Clock::now();
   dem::Model model_;
   StepChoice choice_;
+  Vec3d origin_;  // of the engine's coordinates, in the scene's [m]
   dem::Simulation sim_;
   std::vector<PhasedRain> rains_;
   RunState state_;
@@ -88,8 +91,12 @@ Run::Run(const scene::Scene& scene, const RunOptions& options)
       options_(options),
       model_(build_model(scene)),
       choice_(choose_step(scene, model_)),
-      sim_(model_, choice_.step, {options.reference, 0}),
-      rains_(build_rain(scene)),
+      origin_(scene.domain.box.lo),
+      sim_(relative_to(origin_, model_), choice_.step,
+           {.reference = options.reference,
+            .precision = options.mixed ? dem::Precision::mixed : dem::Precision::real64,
+            .energies = scene.output.energy}),
+      rains_(build_rain(scene, origin_)),
       fingerprint_(scene::resolved_toml(scene)),
       dt_(choice_.step),
       series_every_(Recurrence::of(scene.output.series, dt_)),
@@ -198,6 +205,9 @@ void Run::fill(io::ParticleFrame& frame) const {
   }
   frame.id = std::move(c.id);
   frame.x = std::move(c.x), frame.y = std::move(c.y), frame.z = std::move(c.z);
+  for (std::size_t i = 0; i < frame.x.size(); ++i) {
+    frame.x[i] += origin_.x, frame.y[i] += origin_.y, frame.z[i] += origin_.z;
+  }
   frame.radius = std::move(c.radius);
   frame.vx = std::move(c.vx), frame.vy = std::move(c.vy), frame.vz = std::move(c.vz);
   frame.wx = std::move(c.wx), frame.wy = std::move(c.wy), frame.wz = std::move(c.wz);
@@ -208,7 +218,8 @@ void Run::fill(io::ParticleFrame& frame) const {
     frame.periodic[axis] = scene_.domain.boundary[axis] == scene::Boundary::periodic;
   }
   for (std::size_t w = 0; w < sim_.walls().size(); ++w) {
-    frame.walls.push_back({w < scene_.walls.size() ? scene_.walls[w].name : "boundary", sim_.walls()[w]});
+    frame.walls.push_back(
+        {w < scene_.walls.size() ? scene_.walls[w].name : "boundary", translated(sim_.walls()[w], origin_)});
   }
 }
 
@@ -237,21 +248,32 @@ void Run::append_frame(const io::ParticleFrame& frame) {
   file_seconds_ += seconds_since(start);
 }
 
+/// Looks at the contacts as they are: stiff ones make the integration inaccurate, then unstable.
 void Run::guard() {
   const dem::StepCheck check = dem::check_step(sim_);
-  if (check.ratio <= kWarnRatio || scene_.step.allow_unstable) return;
-  const std::string message = fmt::format(
-      "at t = {:.6g} s the time step {:.3g} s is {:.2f} of sqrt(m/k) of the contact between grain {} and {}",
-      sim_.time(), dt_, check.ratio, check.grain_a,
-      check.grain_b < 0 ? "a wall" : fmt::format("grain {}", check.grain_b));
+  if (scene_.step.allow_unstable) return;
+  const std::string where =
+      fmt::format("at step {} (t = {:.6g} s) the time step {:.3g} s is", sim_.step(), sim_.time(), dt_);
+  const std::string contact =
+      fmt::format("{} {:.2f} of sqrt(m/k) of the contact between grain {} and {}", where, check.ratio,
+                  check.grain_a, check.grain_b < 0 ? "a wall" : fmt::format("grain {}", check.grain_b));
   if (check.ratio > kRefuseRatio) {
-    throw UnstableError(message + ": contacts gain energy from 0.8 on; use a smaller [time] step");
+    throw UnstableError(contact + ": contacts gain energy from 0.8 on; use a smaller [time] step");
   }
-  if (!warned_ && options_.warn) options_.warn(message + "; above 0.2 the restitution is wrong by percents");
-  warned_ = true;
+  if (check.frequency > kRefuseFrequency) {
+    throw UnstableError(
+        fmt::format("{} {:.2f} of the fastest vibration of grain {} among its contacts "
+                    "(1/omega): the integration is stable below 2; use a smaller [time] step",
+                    where, check.frequency, check.frequency_grain));
+  }
+  if (check.ratio > kWarnRatio && !warned_ && options_.warn) {
+    options_.warn(contact + "; above 0.2 the restitution is wrong by percents");
+    warned_ = true;
+  }
 }
 
 void Run::checkpoint() {
+  guard();  // the last good state is not overwritten by a bad one
   const auto start = Clock::now();
   stream_->finish();  // what the checkpoint promises as written is written
   RunState state = state_;
@@ -320,15 +342,19 @@ bool Run::stop_requested(RunResult& result) const {
 
 RunResult Run::go() {
   begin_files();
-  for (const std::string& w : choice_.warnings) {
-    if (options_.warn) options_.warn(w);
+  const ContactReport contacts = report_contacts(scene_, model_, choice_.speed, choice_.step);
+  for (const auto& warnings : {choice_.warnings, contacts.warnings}) {
+    for (const std::string& w : warnings) {
+      if (options_.warn) options_.warn(w);
+    }
   }
   RunResult result;
   if (!options_.resume) {
-    sim_.add_grains(build_placed_grains(scene_));
+    sim_.add_grains(build_placed_grains(scene_, origin_));
     enter_phase();
     pour_rain();
     record(false);
+    checkpoint();
   }
   reported_steps_ = state_.particle_steps;
   reported_time_ = sim_.time();

@@ -24,6 +24,7 @@ struct RunOptions {
   std::filesystem::path folder;
   bool resume = false;
   bool reference = false;  // serial loops, neighbours by brute force
+  bool mixed = false;      // laws and forces in single precision
   bool figures = true;
   std::optional<double> until;       // stop at this time [s]
   std::optional<double> time_limit;  // wall clock [s]

@@ -26,13 +26,28 @@ std::string header_of(const scene::Scene& scene) {
       line += "," + scene.walls[w].name + "_" + column;
     }
   }
+  if (scene.output.energy) {
+    line +=
+        ",energy_kinetic_J,energy_elastic_normal_J,energy_elastic_tangential_J,energy_elastic_rolling_J,"
+        "heat_damping_J,heat_sliding_J,heat_rolling_J,heat_adhesion_J,energy_inserted_J,work_gravity_J,"
+        "work_walls_J,energy_carried_away_J,energy_residual_J";
+  }
   return line;
+}
+
+std::string energy_cells(const dem::Simulation& sim) {
+  const dem::EnergyBalance e = dem::energy_balance(sim);
+  return fmt::format(",{},{},{},{},{},{},{},{},{},{},{},{},{}", e.kinetic, e.elastic_normal,
+                     e.elastic_tangential, e.elastic_rolling, e.heat.damping, e.heat.sliding, e.heat.rolling,
+                     e.heat.adhesion, e.inserted, e.gravity, e.walls, e.carried, e.residual());
 }
 
 }  // namespace
 
 Series::Series(const std::filesystem::path& path, const scene::Scene& scene, std::optional<double> keep_until)
-    : watched_(watched_walls(scene)), table_(path, header_of(scene), keep_until) {}
+    : watched_(watched_walls(scene)),
+      energies_(scene.output.energy),
+      table_(path, header_of(scene), keep_until) {}
 
 void Series::sample(const dem::Simulation& sim) {
   const dem::ContactStatistics c = dem::contact_statistics(sim);
@@ -47,6 +62,7 @@ void Series::sample(const dem::Simulation& sim) {
     line += fmt::format(",{},{},{},{},{},{},{}", s.normal_force, s.shear_force, s.shear_force_sum, s.contacts,
                         s.particles, s.contact_area, s.footprint_area);
   }
+  if (energies_) line += energy_cells(sim);
   table_.append(line);
 }
 

@@ -22,6 +22,7 @@ class Series {
 
  private:
   std::vector<std::size_t> watched_;  // walls
+  bool energies_;                     // are there columns of energies?
   GrowingTable table_;
 };
 

@@ -75,11 +75,7 @@ StepChoice choose_step(const scene::Scene& scene, const dem::Model& model) {
   std::vector<dem::SmallestGrain> smallest;
   double smallest_radius = INFINITY;
   for (const scene::Particles& p : scene.particles) {
-    double radius = 0.5 * p.diameter.min;
-    if (p.list) {
-      radius = INFINITY;
-      for (const auto& grain : p.list->grains) radius = std::min(radius, 0.5 * grain.diameter);
-    }
+    const double radius = 0.5 * smallest_diameter(p);
     if (!std::isfinite(radius)) continue;  // an empty list
     smallest.push_back({material_index(scene, p.material), radius});
     smallest_radius = std::min(smallest_radius, radius);
