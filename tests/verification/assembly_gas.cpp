@@ -1,0 +1,154 @@
+// A granular gas that cools by its collisions: Haff's law (J. Fluid Mech. 134, 1983), its rate by the
+// Enskog collision frequency with the contact value of Carnahan & Starling (1969), and the loss per collision
+// of a Maxwellian gas (Brilliantov & Poeschel, Kinetic Theory of Granular Gases, 2004, ch. 5).
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <utility>
+#include <vector>
+
+#include "base/random.h"
+#include "dem/simulation.h"
+#include "dem/time_step.h"
+#include "tests/dem/scenes.h"
+#include "tests/report/report.h"
+
+namespace interstice::dem {
+namespace {
+
+using interstice::testing::expect_ratio;
+using interstice::testing::Reference;
+
+constexpr double kDiameter = 1e-3, kDensity = 2500, kThermalSpeed = 0.1;  // [m], [kg/m^3], sqrt(T0/m) [m/s]
+constexpr double kMass = M_PI / 6 * kDiameter * kDiameter * kDiameter * kDensity;
+
+struct Gas {
+  NormalLaw normal;
+  double restitution;
+  double solid_fraction;
+  Precision precision;
+  std::size_t count;
+};
+
+/// Enskog collisions per grain and second at the starting temperature.
+double collision_rate(const Gas& gas) {
+  const double phi = gas.solid_fraction;
+  const double density = phi / (M_PI / 6 * kDiameter * kDiameter * kDiameter);
+  const double contact_value = (1 - phi / 2) / std::pow(1 - phi, 3);
+  return 4 * density * kDiameter * kDiameter * contact_value * std::sqrt(M_PI) * kThermalSpeed;
+}
+
+double normal_deviate(Random& random) {
+  return std::sqrt(-2 * std::log(random.uniform())) * std::cos(2 * M_PI * random.uniform());
+}
+
+bool has_room(const std::vector<NewGrain>& grains, const Vec3d& p, double side) {
+  return std::none_of(grains.begin(), grains.end(), [&](const NewGrain& g) {
+    Vec3d apart = p - g.position;
+    for (int axis = 0; axis < 3; ++axis) apart[axis] -= side * std::round(apart[axis] / side);
+    return dot(apart, apart) <= kDiameter * kDiameter;
+  });
+}
+
+/// Random places without overlap, velocities of a Maxwellian with no mean and exactly the temperature asked
+/// for.
+std::vector<NewGrain> maxwellian(const Gas& gas, double side) {
+  Random random(11, 0);
+  std::vector<NewGrain> grains;
+  while (grains.size() < gas.count) {
+    const Vec3d p{random.uniform(0, side), random.uniform(0, side), random.uniform(0, side)};
+    if (has_room(grains, p, side)) grains.push_back({p, kDiameter / 2, {}, {}, 0, 0});
+  }
+  Vec3d mean{0, 0, 0};
+  for (NewGrain& g : grains) {
+    g.velocity = {normal_deviate(random), normal_deviate(random), normal_deviate(random)};
+    mean += (1 / static_cast<double>(gas.count)) * g.velocity;
+  }
+  double square = 0;
+  for (NewGrain& g : grains) {
+    g.velocity -= mean;
+    square += dot(g.velocity, g.velocity) / (3 * static_cast<double>(gas.count));
+  }
+  for (NewGrain& g : grains) g.velocity = (kThermalSpeed / std::sqrt(square)) * g.velocity;
+  return grains;
+}
+
+double temperature(const Simulation& sim) {  // over m [m^2/s^2]
+  double sum = 0;
+  for (const GrainRow& g : sim.rows()) sum += dot(g.velocity(), g.velocity());
+  return sum / (3 * static_cast<double>(sim.grains()));
+}
+
+using Pairs = std::vector<std::pair<std::int64_t, std::int64_t>>;
+
+Pairs touching_pairs(const Simulation& sim) {
+  const PairContacts& contacts = sim.pair_contacts();
+  Pairs touching;
+  for (std::size_t k = 0; k < contacts.pairs.size(); ++k) {
+    if (!contacts.touching(k)) continue;
+    touching.emplace_back(sim.rows()[contacts.pairs[k].a].id, sim.rows()[contacts.pairs[k].b].id);
+  }
+  std::sort(touching.begin(), touching.end());
+  return touching;
+}
+
+/// Contacts last 2 % of the time between collisions at first (and ever less of it), so that they count as
+/// instants: they delay the cooling by about half of that, at first. Their stiffness follows; the step is
+/// 1/25 of a contact.
+Simulation make_gas(const Gas& gas, double contact_time) {
+  Model m =
+      testing::plain_model({kDensity, 1, 0.3}, {.restitution = gas.restitution}, Laws{.normal = gas.normal});
+  const double side = std::cbrt(static_cast<double>(gas.count) * M_PI / 6 / gas.solid_fraction) * kDiameter;
+  m.domain = {{0, 0, 0}, {side, side, side}};
+  m.boundary = {AxisBoundary::periodic, AxisBoundary::periodic, AxisBoundary::periodic};
+  m.pairs[0].stiffness = kMass / 2 * M_PI * M_PI / (contact_time * contact_time);
+  const double at_unit_modulus =
+      collision_time(kMass / 2, kDiameter / 4, 1, std::sqrt(M_PI) * kThermalSpeed);  // mean normal approach
+  const double effective_modulus = std::pow(at_unit_modulus / contact_time, 2.5);    // t_c ~ E*^(-2/5)
+  m.materials[0].youngs_modulus = effective_modulus * 2 * (1 - 0.3 * 0.3);
+  Simulation sim(m, contact_time / atof(getenv("DIV")), {.precision = gas.precision});
+  sim.add_grains(maxwellian(gas, side));
+  return sim;
+}
+
+/// Cools to 1/9 of the first temperature (twice Haff's time), well before clusters form in so small a box.
+void check_cooling(const Gas& gas, const std::string& name) {
+  const Reference haff{fmt::format("Haff's law: {}", name), "Haff 1983; Brilliantov & Pöschel 2004, ch. 5"};
+  const double rate = collision_rate(gas), loss = 1 - gas.restitution * gas.restitution;
+  const double haff_time = 6 / (loss * rate);
+  Simulation sim = make_gas(gas, atof(getenv("TC")) / rate);
+  const double first = temperature(sim);
+  std::int64_t collisions = 0;
+  Pairs before;
+  for (const double until : {0.5, 1.0, 1.5, 2.0}) {
+    while (sim.time() < until * haff_time) {
+      sim.advance(5);  // a fifth of a contact: none is missed
+      Pairs now = touching_pairs(sim), begun;
+      std::set_difference(now.begin(), now.end(), before.begin(), before.end(), std::back_inserter(begun));
+      collisions += static_cast<std::int64_t>(begun.size());
+      before = std::move(now);
+    }
+    const double cooled = temperature(sim) / first;
+    const double per_grain = 2 * static_cast<double>(collisions) / static_cast<double>(gas.count);
+    const double t = sim.time() / haff_time;
+    // 3 %: contacts that last (1 %), the velocity distribution's departure from a Maxwellian (0.3 %), and
+    // the chance of some 3e4 collisions (1 %).
+    expect_ratio(haff, fmt::format("T/T0 at {} Haff times", until), cooled, 1 / ((1 + t) * (1 + t)), 0.03);
+    expect_ratio(haff, fmt::format("T/T0 after {:.1f} collisions per grain", per_grain), cooled,
+                 std::exp(-loss * per_grain / 3), 0.03);
+  }
+}
+
+TEST(GranularGas, OfHertzSpheresCoolsByHaffsLaw) {
+  check_cooling({NormalLaw::hertz, 0.9, 0.1, Precision::real64, 2000}, "hertz, e 0.9, φ 0.1");
+}
+
+TEST(GranularGas, OfHookeSpheresInMixedPrecisionCoolsByHaffsLaw) {
+  check_cooling({NormalLaw::hooke, 0.9, 0.05, Precision::mixed, 2000}, "hooke, e 0.9, φ 0.05, mixed");
+}
+
+}  // namespace
+}  // namespace interstice::dem
