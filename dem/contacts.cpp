@@ -9,6 +9,12 @@ namespace interstice::dem {
 namespace {
 constexpr std::size_t kRowsPerBlock = 2048;
 constexpr std::size_t kPairsPerBlock = 4096;
+
+template <class T>
+std::size_t bytes_of(const std::vector<T>& v) {
+  return v.capacity() * sizeof(T);
+}
+
 }  // namespace
 
 void PairContacts::replace(std::vector<PairRef> new_pairs, const std::vector<GrainRow>& rows,
@@ -38,6 +44,13 @@ void PairContacts::replace(std::vector<PairRef> new_pairs, const std::vector<Gra
   if (kept_.heat) heat.assign(pairs.size(), {});
   build_adjacency(rows);
 }
+
+std::size_t PairContacts::bytes() const {
+  return bytes_of(pairs) + bytes_of(state) + bytes_of(sliding) + bytes_of(rolling) + bytes_of(results) +
+         bytes_of(heat) + bytes_of(first_) + bytes_of(adjacent_) + bytes_of(partner_id_);
+}
+
+std::size_t WallContacts::bytes() const { return bytes_of(entries) + bytes_of(first_); }
 
 void PairContacts::build_adjacency(const std::vector<GrainRow>& rows) {
   first_.assign(rows.size() + 1, 0);

@@ -73,6 +73,8 @@ class PairContacts {
     return {adjacent_.data() + first_[slot], adjacent_.data() + first_[slot + 1]};
   }
 
+  std::size_t bytes() const;
+
   static constexpr std::uint32_t kNoSlot = 0xffffffffu;
 
  private:
@@ -107,6 +109,8 @@ class WallContacts {
     if (slot + 1 >= first_.size()) return {};
     return {entries.data() + first_[slot], entries.data() + first_[slot + 1]};
   }
+
+  std::size_t bytes() const;
 
   /// Lists the walls nearer than `reach` to each grain; memories move along as in PairContacts::replace.
   void replace(const std::vector<GrainRow>& rows, const std::vector<Shape>& walls, double reach,

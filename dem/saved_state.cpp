@@ -67,13 +67,14 @@ SavedState Simulation::save() const {
       append(wall_springs, w.rolling);
     }
   }
+  std::vector<double>&walls = s.real["walls"], &ledger = s.real["energies"];  // there even where empty
+  std::vector<std::int64_t>& since = s.integer["walls_since"];
   for (const WallMotion& m : motion_of_wall_) {
-    append(s.real["walls"], m.velocity);
-    append(s.real["walls"], m.offset);
-    s.integer["walls_since"].push_back(m.since);
+    append(walls, m.velocity);
+    append(walls, m.offset);
+    since.push_back(m.since);
   }
   for (const GrainEnergy& e : energies_) {
-    std::vector<double>& ledger = s.real["energies"];
     ledger.insert(ledger.end(), {e.inserted, e.gravity, e.walls, e.wall_power, e.carried, e.heat.damping,
                                  e.heat.sliding, e.heat.rolling, e.heat.adhesion});
   }
@@ -127,7 +128,6 @@ void Simulation::restore(const SavedState& s) {
 
 void Simulation::restore_energies(const SavedState& s) {
   energies_.assign(static_cast<std::size_t>(next_id_), {});
-  if (next_id_ == 0) return;
   const auto& ledger = array_of(s.real, "energies");
   if (ledger.size() != kRealsPerLedger * energies_.size()) {
     throw InputError("checkpoint: arrays of unequal length; start the run anew");

@@ -287,6 +287,12 @@ void Simulation::rebuild() {
   ++rebuilds_;
 }
 
+std::size_t Simulation::bytes() const {
+  return rows_.capacity() * sizeof(GrainRow) + motions_.capacity() * sizeof(GrainMotion) +
+         pair_contacts_.bytes() + wall_contacts_.bytes() + built_ids_.capacity() * sizeof(std::int64_t) +
+         energies_.capacity() * sizeof(GrainEnergy);
+}
+
 std::vector<std::uint32_t> Simulation::slots_by_id() const {
   std::vector<std::uint32_t> slots(rows_.size());
   for (std::uint32_t s = 0; s < slots.size(); ++s) slots[s] = s;

@@ -76,6 +76,8 @@ class Simulation {
   bool generic_kernel() const { return kernels_.generic; }
   SearchSpace search_space() const;
   std::int64_t rebuilds() const { return rebuilds_; }
+  /// Bytes held for grains, lists and contacts.
+  std::size_t bytes() const;
 
  private:
   struct WallMotion {

@@ -72,7 +72,8 @@ class Run {
   dem::Simulation sim_;
   std::vector<PhasedRain> rains_;
   RunState state_;
-  std::string fingerprint_;
+  std::string fingerprint_;      // the resolved scene
+  std::string checkpoint_mark_;  // with what else a checkpoint must agree in
   double dt_;
   Recurrence series_every_, frame_every_, quiet_every_;
   std::vector<Recurrence> field_every_, rain_every_;
@@ -98,6 +99,7 @@ Run::Run(const scene::Scene& scene, const RunOptions& options)
             .energies = scene.output.energy}),
       rains_(build_rain(scene, origin_)),
       fingerprint_(scene::resolved_toml(scene)),
+      checkpoint_mark_(fingerprint_ + "# precision: " + options.precision + "\n"),
       dt_(choice_.step),
       series_every_(Recurrence::of(scene.output.series, dt_)),
       frame_every_(Recurrence::of(scene.output.trajectory, dt_)) {
@@ -110,7 +112,7 @@ void Run::begin_files() {
   const auto& folder = options_.folder;
   std::optional<double> keep_until;
   if (options_.resume) {
-    read_checkpoint(folder / "checkpoint.h5", sim_, rains_, state_, fingerprint_);
+    read_checkpoint(folder / "checkpoint.h5", sim_, rains_, state_, checkpoint_mark_);
     for (std::size_t i = 0; i < state_.spans.size(); ++i) state_.spans[i].name = scene_.phases.at(i).name;
     keep_until = sim_.time() + 0.25 * dt_;
     if (state_.phase < scene_.phases.size()) choose_phase_checks();
@@ -278,7 +280,7 @@ void Run::checkpoint() {
   stream_->finish();  // what the checkpoint promises as written is written
   RunState state = state_;
   state.wall_seconds = wall_seconds();
-  write_checkpoint(options_.folder / "checkpoint.h5", sim_, rains_, state, fingerprint_);
+  write_checkpoint(options_.folder / "checkpoint.h5", sim_, rains_, state, checkpoint_mark_);
   last_checkpoint_ = Clock::now();
   file_seconds_ += seconds_since(start);
 }

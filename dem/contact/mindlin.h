@@ -37,7 +37,7 @@ INTERSTICE_HD inline TangentialForce<T> mindlin_force(const TangentialSpring<T>&
   const Vec3<T> kept = lessened * (old.force - dot(old.force, normal) * normal);
   const Vec3<T> spring = kept - (stiffness * dt) * velocity;
   const Vec3<T> trial = spring - dashpot * velocity;
-  const T magnitude = norm(trial);
+  const T magnitude = length_of(trial);
   const auto slides = magnitude > limit;
   const T scale = limit / select(slides, magnitude, T(1));
   TangentialForce<T> out;

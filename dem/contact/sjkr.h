@@ -8,16 +8,16 @@
 namespace interstice::dem {
 
 /// Area of the circle in which two spheres of radii a, b at centre distance d intersect [m^2];
-/// overlap = a + b - d.
+/// overlap = a + b - d. None where one sphere lies wholly inside the other (a bad start, a heavy press).
 template <class T>
 INTERSTICE_HD inline T sphere_sphere_area(const T& a, const T& b, const T& d, const T& overlap) {
-  return T(0.25 * M_PI) * overlap * (d + a - b) * (d - a + b) * (d + a + b) / (d * d);
+  return max_of(T(0.25 * M_PI) * overlap * (d + a - b) * (d - a + b) * (d + a + b) / (d * d), T(0));
 }
 
 /// Area in which a sphere of radius r intersects a plane at distance d = r - overlap from its centre [m^2].
 template <class T>
 INTERSTICE_HD inline T sphere_plane_area(const T& r, const T& overlap) {
-  return T(M_PI) * overlap * (T(2) * r - overlap);
+  return max_of(T(M_PI) * overlap * (T(2) * r - overlap), T(0));
 }
 
 /// Attraction k A [N], k the cohesion energy density [J/m^3].
@@ -29,13 +29,15 @@ INTERSTICE_HD inline T sjkr_attraction(const T& energy_density, const T& area) {
 /// Integral of sphere_sphere_area over the overlap [m^3].
 template <class T>
 INTERSTICE_HD inline T sphere_sphere_area_integral(const T& a, const T& b, const T& d, const T& overlap) {
-  return T(0.25 * M_PI) * square(overlap) * (a + b - overlap / T(3) - square(a - b) / d);
+  const T meeting = max_of(d, abs_of(a - b)), o = min_of(overlap, a + b - meeting);  // constant farther in
+  return T(0.25 * M_PI) * square(o) * (a + b - o / T(3) - square(a - b) / meeting);
 }
 
 /// Integral of sphere_plane_area over the overlap [m^3].
 template <class T>
 INTERSTICE_HD inline T sphere_plane_area_integral(const T& r, const T& overlap) {
-  return T(M_PI) * square(overlap) * (r - overlap / T(3));
+  const T o = min_of(overlap, T(2) * r);
+  return T(M_PI) * square(o) * (r - o / T(3));
 }
 
 }  // namespace interstice::dem

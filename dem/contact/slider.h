@@ -18,7 +18,7 @@ template <class T>
 INTERSTICE_HD inline Vec3<T> slider_force(const Vec3<T>& velocity, const T& limit, const T& threshold,
                                           const T& effective_mass, const T& dt) {
   const T stable = limit * dt / (T(kSliderShare * 2.0 / 7.0) * effective_mass);
-  const T speed = max_of(norm(velocity), max_of(threshold, stable));
+  const T speed = max_of(max_of(norm(velocity), T(1e-30)), max_of(threshold, stable));
   return (-limit / speed) * velocity;
 }
 

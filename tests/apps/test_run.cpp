@@ -172,7 +172,7 @@ TEST_F(Run, RefusesWhatIsWrongWithOneLineAndWritesNothing) {
   refused("--set materials.powder.density=8200", "kg/m^3");
   refused("--set 'materials.powder.densty=\"8200 kg/m^3\"'", "density");
   refused("--set 'time.step=\"2 us\"'", "0.2");  // 0.28 of the collision time
-  refused("--precision mixed", "mixed");
+  refused("--precision half", "half");
   refused("--backend cuda", "cuda");
   refused("--threads -3", "--threads");
   refused("--until 5", "--until");
