@@ -95,9 +95,8 @@ Pairs touching_pairs(const Simulation& sim) {
   return touching;
 }
 
-/// Contacts last 2 % of the time between collisions at first (and ever less of it), so that they count as
-/// instants: they delay the cooling by about half of that, at first. Their stiffness follows; the step is
-/// 1/25 of a contact.
+/// Contacts last 1 % of the time between collisions at first (and ever less of it), so that they count as
+/// instants: 2 % would slow the cooling by 2 % more. Their stiffness follows; the step is 1/25 of a contact.
 Simulation make_gas(const Gas& gas, double contact_time) {
   Model m =
       testing::plain_model({kDensity, 1, 0.3}, {.restitution = gas.restitution}, Laws{.normal = gas.normal});
@@ -109,21 +108,22 @@ Simulation make_gas(const Gas& gas, double contact_time) {
       collision_time(kMass / 2, kDiameter / 4, 1, std::sqrt(M_PI) * kThermalSpeed);  // mean normal approach
   const double effective_modulus = std::pow(at_unit_modulus / contact_time, 2.5);    // t_c ~ E*^(-2/5)
   m.materials[0].youngs_modulus = effective_modulus * 2 * (1 - 0.3 * 0.3);
-  Simulation sim(m, contact_time / atof(getenv("DIV")), {.precision = gas.precision});
+  Simulation sim(m, contact_time / 25, {.precision = gas.precision});
   sim.add_grains(maxwellian(gas, side));
   return sim;
 }
 
-/// Cools to 1/9 of the first temperature (twice Haff's time), well before clusters form in so small a box.
-void check_cooling(const Gas& gas, const std::string& name) {
+/// Cools for up to twice Haff's time, to 1/9 of the first temperature: well before clusters form in so small
+/// a box. (Not with the reference back end, whose search for neighbours is for small scenes.)
+void check_cooling(const Gas& gas, const std::string& name, const std::vector<double>& times) {
   const Reference haff{fmt::format("Haff's law: {}", name), "Haff 1983; Brilliantov & Pöschel 2004, ch. 5"};
   const double rate = collision_rate(gas), loss = 1 - gas.restitution * gas.restitution;
   const double haff_time = 6 / (loss * rate);
-  Simulation sim = make_gas(gas, atof(getenv("TC")) / rate);
+  Simulation sim = make_gas(gas, 0.01 / rate);
   const double first = temperature(sim);
   std::int64_t collisions = 0;
   Pairs before;
-  for (const double until : {0.5, 1.0, 1.5, 2.0}) {
+  for (const double until : times) {
     while (sim.time() < until * haff_time) {
       sim.advance(5);  // a fifth of a contact: none is missed
       Pairs now = touching_pairs(sim), begun;
@@ -134,8 +134,8 @@ void check_cooling(const Gas& gas, const std::string& name) {
     const double cooled = temperature(sim) / first;
     const double per_grain = 2 * static_cast<double>(collisions) / static_cast<double>(gas.count);
     const double t = sim.time() / haff_time;
-    // 3 %: contacts that last (1 %), the velocity distribution's departure from a Maxwellian (0.3 %), and
-    // the chance of some 3e4 collisions (1 %).
+    // 3 %: contacts that last (1 %), the velocities' departure from a Maxwellian (0.8 %) and the chance of
+    // some 1e4 collisions (1 %).
     expect_ratio(haff, fmt::format("T/T0 at {} Haff times", until), cooled, 1 / ((1 + t) * (1 + t)), 0.03);
     expect_ratio(haff, fmt::format("T/T0 after {:.1f} collisions per grain", per_grain), cooled,
                  std::exp(-loss * per_grain / 3), 0.03);
@@ -143,11 +143,13 @@ void check_cooling(const Gas& gas, const std::string& name) {
 }
 
 TEST(GranularGas, OfHertzSpheresCoolsByHaffsLaw) {
-  check_cooling({NormalLaw::hertz, 0.9, 0.1, Precision::real64, 2000}, "hertz, e 0.9, φ 0.1");
+  check_cooling({NormalLaw::hertz, 0.9, 0.1, Precision::real64, 2000}, "hertz, e 0.9, φ 0.1",
+                {0.5, 1, 1.5, 2});
 }
 
 TEST(GranularGas, OfHookeSpheresInMixedPrecisionCoolsByHaffsLaw) {
-  check_cooling({NormalLaw::hooke, 0.9, 0.05, Precision::mixed, 2000}, "hooke, e 0.9, φ 0.05, mixed");
+  check_cooling({NormalLaw::hooke, 0.9, 0.05, Precision::mixed, 1000}, "hooke, e 0.9, φ 0.05, mixed",
+                {0.5, 1, 1.5});
 }
 
 }  // namespace

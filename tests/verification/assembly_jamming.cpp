@@ -40,7 +40,7 @@ Model frictionless_cube() {
 /// Without friction contacts remember nothing, so that grains of another radius just go on in a new
 /// simulation.
 void relax(std::vector<NewGrain>& grains, double radius, std::int64_t steps, double* pressure = nullptr) {
-  Simulation sim(frictionless_cube(), 0.3 * rayleigh_time(radius, kSoft));
+  Simulation sim(frictionless_cube(), 0.12 * rayleigh_time(radius, kSoft));
   for (NewGrain& g : grains) g.radius = radius;
   sim.add_grains(grains);
   sim.advance(steps);
@@ -84,12 +84,12 @@ double jamming_fraction(std::size_t count, std::uint64_t seed) {
   for (const GrainRow& g : start.rows()) grains.push_back({g.position(), g.radius, {}, {}, 0, 0});
   EXPECT_EQ(grains.size(), count);
 
-  for (double phi = 0.26; phi < 0.5999; phi += 0.01) relax(grains, radius_at(phi, count), 100);
-  for (double phi = 0.6; phi < 0.6499; phi += 0.002) relax(grains, radius_at(phi, count), 500);
+  for (double phi = 0.26; phi < 0.5999; phi += 0.01) relax(grains, radius_at(phi, count), 200);
+  for (double phi = 0.6; phi < 0.6499; phi += 0.002) relax(grains, radius_at(phi, count), 1000);
   std::vector<double> fractions, pressures;  // p^(2/3)
   for (double phi = 0.65; phi < 0.6651; phi += 0.005) {
     double pressure = 0;
-    relax(grains, radius_at(phi, count), 2500, &pressure);
+    relax(grains, radius_at(phi, count), 5000, &pressure);
     fractions.push_back(phi);
     pressures.push_back(std::pow(pressure, 2.0 / 3));
   }

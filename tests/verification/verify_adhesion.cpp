@@ -121,7 +121,8 @@ TEST_P(Adhesion, JkrBeginsAtTouchAndNotBefore) {
 }
 
 TEST_P(Adhesion, PullOffOfEachLaw) {
-  const Reference r{"Pull-off from a rigid wall, measured [nN]", "closed forms of verify_potentials"};
+  const Reference r{"Pull-off from a rigid wall, measured [nN]",
+                    "closed forms, as in the table of pull-off forces"};
   for (const auto& [law, name] :
        {std::pair{CohesionLaw::sjkr, "sjkr"}, std::pair{CohesionLaw::jkr, "jkr"},
         std::pair{CohesionLaw::dmt, "dmt"}, std::pair{CohesionLaw::van_der_waals, "van der Waals"}}) {
