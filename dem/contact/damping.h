@@ -16,7 +16,7 @@ double damping_ratio(double restitution);
 double clipped_restitution(double damping_ratio);
 
 /// The zeta at which that is e, at most kLargestClippedRatio: nothing returns less than
-/// clipped_restitution(kLargestClippedRatio) = 0.0238.
+/// clipped_restitution(kLargestClippedRatio) = 0.024.
 double clipped_damping_ratio(double restitution);
 inline constexpr double kLargestClippedRatio = 3;
 
