@@ -288,7 +288,7 @@ void Run::checkpoint() {
 std::int64_t Run::next_event() const {
   const std::int64_t step = sim_.step();
   std::int64_t next = std::min({phase_limit(), series_every_.next(step), frame_every_.next(step)});
-  next = std::min(next, Recurrence{kStepsPerGuard}.next(step));
+  next = std::min(next, step == 0 ? 1 : Recurrence{kStepsPerGuard}.next(step));
   next = std::min(next, quiet_every_.next(step));
   for (const Recurrence& r : field_every_) next = std::min(next, r.next(step));
   for (std::size_t i = 0; i < rains_.size(); ++i) {
@@ -367,7 +367,7 @@ RunResult Run::go() {
         1 + static_cast<std::int64_t>(kPollSeconds * 4e6 / (static_cast<double>(sim_.grains()) + 50));
     advance_to(std::min(next_event(), sim_.step() + chunk));
     pour_rain();
-    if (sim_.step() % kStepsPerGuard == 0) guard();
+    if (sim_.step() % kStepsPerGuard == 0 || sim_.step() == 1) guard();  // placed grains may overlap already
     std::string why;
     const bool over = phase_over(why);
     record(over);
