@@ -18,7 +18,11 @@ constexpr Material kPowder{8200, 1e9, 0.3};
 using Rotation = std::array<Vec3d, 3>;  // rows
 Vec3d turned(const Rotation& q, const Vec3d& v) { return {dot(q[0], v), dot(q[1], v), dot(q[2], v)}; }
 constexpr Rotation kNone{Vec3d{1, 0, 0}, Vec3d{0, 1, 0}, Vec3d{0, 0, 1}};
-constexpr Rotation kMirror{Vec3d{-1, 0, 0}, Vec3d{0, 1, 0}, Vec3d{0, 0, 1}};
+constexpr Rotation mirror_of(int axis) {
+  Rotation q = kNone;
+  q[static_cast<std::size_t>(axis)][axis] = -1;
+  return q;
+}
 
 /// About an axis that is no axis of the coordinates.
 Rotation oblique() {
@@ -156,7 +160,11 @@ TEST_P(Invariance, UnderRotation) {
 }
 
 TEST_P(Invariance, UnderMirrorImages) {
-  hold_view({"Mirror image, to the bit", kSymmetry}, {.rotation = kMirror}, GetParam(), 0);
+  const char* planes[] = {"Mirror image in x, to the bit", "Mirror image in y, to the bit",
+                          "Mirror image in z, to the bit"};
+  for (int axis = 0; axis < 3; ++axis) {
+    hold_view({planes[axis], kSymmetry}, {.rotation = mirror_of(axis)}, GetParam(), 0);
+  }
 }
 
 TEST_P(Invariance, UnderAMovingFrame) {

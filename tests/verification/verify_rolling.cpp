@@ -1,5 +1,7 @@
 // A sphere on a floor or a slope: sliding, rolling, stopping, resting, bouncing; against the mechanics of
 // rigid bodies.
+#include <fmt/format.h>
+
 #include "tests/verification/set_up.h"
 
 namespace interstice::dem::verification {
@@ -128,6 +130,25 @@ TEST_P(Rolling, RollingFrictionHoldsASphereOnASlopeOrNot) {
       expect_ratio(r, GetParam().row(quantity + ": acceleration [m/s^2]"),
                    (grain_of(sim, 0).vx - halfway) / (0.5 * end), a, 2 * kArm);
     }
+  }
+}
+
+TEST_P(Rolling, ASphereThatCannotRollSlidesLikeABlock) {
+  const double mu = 0.3, end = 0.1;
+  const Reference r{"Block on a slope, mu = 0.3 (a sphere kept from rolling by epsd2, mu_r = 1)", "Coulomb"};
+  for (const double slope : {0.1, 0.25, 0.35, 0.6}) {
+    const double angle = std::atan(slope);
+    Simulation sim = place(
+        {.angle = angle, .friction = mu, .rolling_friction = 1, .rolling = RollingLaw::epsd2}, GetParam());
+    advance_to(sim, 0.5 * end);
+    const double halfway = grain_of(sim, 0).vx;
+    advance_to(sim, end);
+    const double a = slope < mu ? 0 : kGravity * (std::sin(angle) - mu * std::cos(angle));
+    expect_close(r, GetParam().row(fmt::format("tan(theta) = {}: acceleration [m/s^2]", slope)),
+                 (grain_of(sim, 0).vx - halfway) / (0.5 * end), a, 2 * kArm * std::max(a, 0.1));
+    expect_close(r,
+                 GetParam().row(fmt::format("tan(theta) = {}: spin times radius over free rolling's", slope)),
+                 grain_of(sim, 0).wy * kRadius / (5.0 / 7 * kGravity * std::sin(angle) * end), 0, kArm);
   }
 }
 
