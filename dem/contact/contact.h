@@ -111,7 +111,8 @@ INTERSTICE_HD inline ContactForce<T> evaluate_contact(const Laws& laws, const Co
                                                       const StepConstants<T>& step) {
   const NormalResponse<T> normal = normal_response(laws, k.overlap, k.effective_radius, c);
   const T normal_speed = dot(k.velocity, k.normal);
-  const T damped = normal.force - dashpot(c.damping, normal.stiffness, k.effective_mass) * normal_speed;
+  const T gamma = dashpot(c.damping, normal.stiffness, k.effective_mass);
+  const T damped = normal.force - gamma * normal_speed;
   const T repulsion = laws.clip ? max_of(damped, min_of(normal.force, T(0))) : damped;
   const T attraction = attraction_in_contact(laws, k.overlap, k.effective_radius, k.area, c);
   const bool jkr = laws.cohesion == CohesionLaw::jkr;
@@ -127,7 +128,7 @@ INTERSTICE_HD inline ContactForce<T> evaluate_contact(const Laws& laws, const Co
     out.heat.sliding = -step.dt * dot(out.tangential, slip);
   } else if (laws.tangential == TangentialLaw::mindlin) {
     const auto t = mindlin_force(memory.sliding, k.normal, slip, step.dt, shear_stiffness,
-                                 dashpot(c.damping, shear_stiffness, k.effective_mass), friction_limit);
+                                 c.shear_damping * gamma, friction_limit);
     out.tangential = t.force;
     out.memory.sliding = t.spring;
     out.heat.sliding = t.slip_heat;

@@ -18,6 +18,7 @@ PairConstants<double> derive_pair_constants(const Material& a, const Material& b
   PairConstants<double> c;
   c.effective_modulus = 1 / (compliance(a) + compliance(b));
   c.shear_ratio = 4 * (compliance(a) + compliance(b)) / (shear_compliance(a) + shear_compliance(b));
+  c.shear_damping = std::sqrt(c.shear_ratio);
   const double ratio = damping == DampingRule::exact_with_tension ? damping_ratio(pair.restitution)
                                                                   : clipped_damping_ratio(pair.restitution);
   // gamma = 2 zeta sqrt(k m*) for the linear spring; sqrt(5/6) of that for Hertz, with S for k.

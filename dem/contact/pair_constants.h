@@ -35,6 +35,7 @@ template <class T>
 struct PairConstants {
   T effective_modulus = 0;  // E* [Pa]
   T shear_ratio = 0;        // tangential over normal tangent stiffness, 4 G*/E* [-]
+  T shear_damping = 0;      // tangential over normal dashpot, the root of that [-]
   T damping = 0;            // dashpot over sqrt(S m*) [-], see damping.h
   T friction = 0;
   T rolling_friction = 0;
@@ -46,17 +47,20 @@ struct PairConstants {
 
   template <class U>
   PairConstants<U> as() const {
-    return {static_cast<U>(effective_modulus),
-            static_cast<U>(shear_ratio),
-            static_cast<U>(damping),
-            static_cast<U>(friction),
-            static_cast<U>(rolling_friction),
-            static_cast<U>(cohesion_energy_density),
-            static_cast<U>(work_of_adhesion),
-            static_cast<U>(hamaker_constant),
-            static_cast<U>(cutoff),
-            static_cast<U>(range),
-            static_cast<U>(stiffness)};
+    PairConstants<U> c;
+    c.effective_modulus = static_cast<U>(effective_modulus);
+    c.shear_ratio = static_cast<U>(shear_ratio);
+    c.shear_damping = static_cast<U>(shear_damping);
+    c.damping = static_cast<U>(damping);
+    c.friction = static_cast<U>(friction);
+    c.rolling_friction = static_cast<U>(rolling_friction);
+    c.cohesion_energy_density = static_cast<U>(cohesion_energy_density);
+    c.work_of_adhesion = static_cast<U>(work_of_adhesion);
+    c.hamaker_constant = static_cast<U>(hamaker_constant);
+    c.cutoff = static_cast<U>(cutoff);
+    c.range = static_cast<U>(range);
+    c.stiffness = static_cast<U>(stiffness);
+    return c;
   }
 };
 

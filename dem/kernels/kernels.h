@@ -6,7 +6,6 @@
 #include "dem/contacts.h"
 #include "dem/grains.h"
 #include "dem/model.h"
-#include "dem/neighbours.h"
 
 namespace interstice::dem {
 
@@ -19,7 +18,7 @@ enum class Precision {
 /// heat is null where no energies are kept.
 struct StepView {
   const GrainRow* rows;
-  SearchSpace space;
+  Vec3d period;                                  // of the domain [m]; 0 along axes that are not periodic
   double dt;                                     // [s]
   double slider_velocity;                        // [m/s]
   const PairConstants<double>* constants;        // materials x materials

@@ -48,10 +48,10 @@ void touch_pair(const L& laws, const StepView& v, std::size_t k, const ContactKi
 }
 
 template <class L, class Real>
-void evaluate_pair(const L& laws, const StepView& v, std::size_t k, bool wraps) {
+void evaluate_pair(const L& laws, const StepView& v, std::size_t k) {
   const GrainRow& a = v.rows[v.pairs[k].a];
   const GrainRow& b = v.rows[v.pairs[k].b];
-  const Vec3d apart = wraps ? separation(a.position(), b.position(), v.space) : a.position() - b.position();
+  const Vec3d apart = nearest_image(a.position() - b.position(), v.period);
   const double reach = a.radius + b.radius, d2 = dot(apart, apart);
   const bool overlap = d2 < reach * reach;
   const bool necked = laws.cohesion == CohesionLaw::jkr && v.state[k] == ContactState::touching;
@@ -92,8 +92,7 @@ void evaluate_pair(const L& laws, const StepView& v, std::size_t k, bool wraps) 
 
 template <class L, class Real>
 void evaluate_pairs(const L& laws, const StepView& v, std::size_t begin, std::size_t end) {
-  const bool wraps = v.space.periodic[0] || v.space.periodic[1] || v.space.periodic[2];
-  for (std::size_t k = begin; k < end; ++k) evaluate_pair<L, Real>(laws, v, k, wraps);
+  for (std::size_t k = begin; k < end; ++k) evaluate_pair<L, Real>(laws, v, k);
 }
 
 }  // namespace interstice::dem
