@@ -36,7 +36,7 @@ of the label `long`, assemblies of many grains that run for minutes. Every numbe
 `yes`: within the tolerance, which the test's source gives the reason for. `NO`: not; the test fails. `shown`: set
 beside the reference and not held to it, for the reason in the column of the tolerance (a disagreement of models, a
 point of a curve whose whole is held). In brackets is the back end: `double`, `reference` (serial, every pair tried)
-and `mixed` (laws in single precision).
+and `mixed` (laws in single precision); those that agree to the last digit shown share a row.
 
 )"},
     {"extreme", 4, "| tried | outcome | as it must be |", "|---|---|---|",
@@ -118,6 +118,36 @@ std::vector<Section> sections_of(const Page& page, std::vector<std::string> file
   return sections;
 }
 
+/// The back end that a quantity names at its end, with the bracket before it: " (mixed)"; else nothing.
+std::string back_end_of(const std::string& quantity) {
+  for (const char* suffix : {" (double)", " (reference)", " (mixed)"}) {
+    if (quantity.ends_with(suffix)) return suffix;
+  }
+  return "";
+}
+
+/// Rows that several back ends agree on to the last digit shown become one, which names them all.
+std::vector<Row> joined(const std::vector<Row>& rows) {
+  std::vector<Row> out;  // with the quantity's bare name
+  std::vector<std::string> back_ends;
+  for (Row row : rows) {
+    const std::string suffix = back_end_of(row[0]);
+    row[0].resize(row[0].size() - suffix.size());
+    const std::string back_end = suffix.empty() ? "" : suffix.substr(2, suffix.size() - 3);
+    const auto same = suffix.empty() ? out.end() : std::find(out.begin(), out.end(), row);
+    if (same != out.end() && !back_ends[static_cast<std::size_t>(same - out.begin())].empty()) {
+      back_ends[static_cast<std::size_t>(same - out.begin())] += ", " + back_end;
+    } else {
+      out.push_back(row);
+      back_ends.push_back(back_end);
+    }
+  }
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    if (!back_ends[i].empty()) out[i][0] += fmt::format(" ({})", back_ends[i]);
+  }
+  return out;
+}
+
 /// How many rows passed, were shown, or did not pass.
 std::string summary(const std::vector<Section>& sections) {
   std::size_t passed = 0, shown = 0, failed = 0;
@@ -137,7 +167,7 @@ void write_page(const Page& page, const std::vector<Section>& sections, const st
     for (const std::string& source : s.sources) out << "Reference: " << source << ".\n";
     if (!s.sources.empty()) out << '\n';
     out << page.heading << '\n' << page.separator << '\n';
-    for (const Row& row : s.rows) {
+    for (const Row& row : joined(s.rows)) {
       for (const std::string& cell : row) out << "| " << escaped(cell) << ' ';
       out << "|\n";
     }

@@ -27,6 +27,15 @@ cmp -s one.md two.md || fail 'the page depends on the order in which files are n
 line '| dt = 0 | refused | yes |' three.md
 line '1 cases; 1 checks passed, 0 did not.' three.md
 
+for back_end in double reference mixed; do
+  printf 'check\tcase\tload (%s)\t1\t1.5\t±1\tyes\tbook\n' $back_end
+done >d.tsv
+printf 'check\tcase\tload (mixed)\t1\t1.6\t±1\tyes\tbook\n' >>d.tsv
+"$maker" check five.md d.tsv
+line '| load (double, reference, mixed) | 1 | 1.5 | ±1 | yes |' five.md
+line '| load (mixed) | 1 | 1.6 | ±1 | yes |' five.md
+line '1 cases; 4 checks passed, 0 did not.' five.md
+
 printf 'check\tcase\tshort\n' >c.tsv
 if "$maker" check four.md c.tsv 2>errors; then fail 'a row with too few columns was taken'; fi
 grep -q 'c.tsv, line 1' errors || fail 'the error does not say where the row is'
