@@ -19,6 +19,7 @@ struct OnSlope {
   double angle = 0;  // [rad]
   double friction = 0.3, rolling_friction = 0;
   RollingLaw rolling = RollingLaw::none;
+  TangentialLaw tangential = TangentialLaw::mindlin;
   double speed = 0;  // at first, along x [m/s]
   double spin = 0;   // at first, about y [rad/s]
   double step = 1e-6;
@@ -28,7 +29,7 @@ struct OnSlope {
 Simulation place(const OnSlope& s, const BackEnd& b) {
   Model m = plain_model(kGlass,
                         {.restitution = 0.5, .friction = s.friction, .rolling_friction = s.rolling_friction},
-                        {.tangential = TangentialLaw::mindlin, .rolling = s.rolling});
+                        {.tangential = s.tangential, .rolling = s.rolling});
   m.domain = {{-10, -10, -10}, {10, 10, 10}};
   m.gravity = {kGravity * std::sin(s.angle), 0, -kGravity * std::cos(s.angle)};
   m.walls = {{.shape = Plane{{0, 0, 0}, {0, 0, 1}}, .material = 0}};
@@ -78,6 +79,28 @@ TEST_P(Rolling, DownASlope) {
     expect_ratio(r, GetParam().row(slope + "acceleration [m/s^2]"), grain_of(sim, 0).vx / end, a, 2 * kArm);
     expect_ratio(r, GetParam().row(slope + "angular acceleration [rad/s^2]"), grain_of(sim, 0).wy / end,
                  alpha, 2 * kArm);
+  }
+}
+
+TEST_P(Rolling, DownASlopeWithTheSlider) {
+  const double mu = 0.2, end = 0.05, g = kGravity;
+  const Reference r{"Sphere down a slope with slider friction, mu = 0.2", kRigidBodies};
+  for (const double degrees : {10.0, 30.0, 45.0}) {
+    const double angle = degrees * M_PI / 180;
+    Simulation sim = place({.angle = angle, .friction = mu, .tangential = TangentialLaw::slider}, GetParam());
+    advance_to(sim, end);
+    const GrainRow& s = grain_of(sim, 0);
+    const bool rolls = std::tan(angle) <= 3.5 * mu;
+    const double a = rolls ? 5.0 / 7 * g * std::sin(angle) : g * (std::sin(angle) - mu * std::cos(angle));
+    const std::string slope = fmt::format("{} deg: ", degrees);
+    // It creeps at up to 1 mm/s beside the rolling of 60 mm/s and more, once: 2/7 of that in the speed.
+    expect_close(r, GetParam().row(slope + "speed after 50 ms [m/s]"), s.vx, a * end,
+                 rolls ? 3e-4 : kArm * a * end);
+    if (!rolls) continue;
+    // Friction of 2/7 m g sin(theta) is that share of its limit, and so the slip of the threshold.
+    const double creep = sim.model().slider_velocity * 2.0 / 7 * std::tan(angle) / mu;
+    expect_ratio(r, GetParam().row(slope + "creep at the contact [mm/s]"), 1e3 * (s.vx - s.wy * s.z),
+                 1e3 * creep, kArm);
   }
 }
 
