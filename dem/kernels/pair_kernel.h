@@ -5,11 +5,13 @@
 
 namespace interstice::dem {
 
-/// The pair k does not act on its grains any more.
+/// The pair k does not act on its grains any more; what its springs still hold is lost.
 template <class L>
 void part_pair(const L& laws, const StepView& v, std::size_t k, double heat) {
   if (v.heat) v.heat[k] = {0, 0, 0, heat};
   if (v.state[k] == ContactState::apart) return;
+  if (v.heat && laws.tangential == TangentialLaw::mindlin) v.heat[k].sliding = spring_energy(v.sliding[k]);
+  if (v.heat && laws.rolling == RollingLaw::epsd2) v.heat[k].rolling = spring_energy(v.rolling[k]);
   v.state[k] = ContactState::apart;
   if (laws.tangential == TangentialLaw::mindlin) v.sliding[k] = {};
   if (laws.rolling == RollingLaw::epsd2) v.rolling[k] = {};

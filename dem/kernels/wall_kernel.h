@@ -6,7 +6,9 @@
 
 namespace interstice::dem {
 
-inline void part_from_wall(WallContact& contact) {
+inline void part_from_wall(WallContact& contact, WallTotals& totals) {
+  if (contact.state == ContactState::apart) return;
+  totals.heat += {0, spring_energy(contact.sliding), spring_energy(contact.rolling), 0};
   contact.state = ContactState::apart;
   contact.sliding = {};
   contact.rolling = {};
@@ -37,7 +39,8 @@ void evaluate_wall(const L& laws, const StepView& v, const GrainRow& g, WallCont
   const WallDistance surface = wall_distance(v.walls[contact.wall], g.position());
   const bool overlap = surface.distance < g.radius;
   const bool necked = laws.cohesion == CohesionLaw::jkr && contact.state == ContactState::touching;
-  if (!overlap && !necked && laws.cohesion != CohesionLaw::van_der_waals) return part_from_wall(contact);
+  if (!overlap && !necked && laws.cohesion != CohesionLaw::van_der_waals)
+    return part_from_wall(contact, totals);
 
   const PairConstants<Real>& c = constants_of<Real>(v, g.material, v.wall_models[contact.wall].material);
   const Vec3d wall_velocity = v.wall_velocities[contact.wall];
@@ -46,10 +49,10 @@ void evaluate_wall(const L& laws, const StepView& v, const GrainRow& g, WallCont
   kin.effective_radius = static_cast<Real>(g.radius);
   if (!overlap && necked && !neck_holds(c, kin.effective_radius, kin.overlap)) {
     totals.heat.adhesion += tear_heat(c, kin.effective_radius);
-    return part_from_wall(contact);
+    return part_from_wall(contact, totals);
   }
   if (!overlap && laws.cohesion == CohesionLaw::van_der_waals) {
-    part_from_wall(contact);
+    part_from_wall(contact, totals);
     const double attraction = static_cast<double>(
         van_der_waals_attraction(c.hamaker_constant, c.cutoff, c.range, kin.effective_radius, kin.overlap));
     if (!(attraction > 0)) return;
