@@ -61,7 +61,7 @@ void settle(Simulation& sim) {
 Simulation poured_bed(std::size_t count, double side, double friction, std::uint64_t seed) {
   const double bed = static_cast<double>(count) * M_PI / 6 * std::pow(kDiameter, 3) / (0.58 * side * side);
   const double lo = bed + 3 * kDiameter, hi = lo + 12 * kDiameter;
-  Simulation sim(periodic_bed(side, hi + kDiameter, friction), 0.2 * rayleigh_time(kRadius, kSoft));
+  Simulation sim(periodic_bed(side, hi + kDiameter, friction), 0.15 * rayleigh_time(kRadius, kSoft));
   Rain rain;
   rain.radii.assign(count, kRadius);
   rain.box = {{0, 0, lo}, {side, side, hi}};
@@ -95,13 +95,11 @@ TEST(PouredBed, OfAThousandFrictionalSpheresHasThePublishedSolidFraction) {
 
 TEST(PouredBed, DISABLED_LongOfTenThousandSpheresHasThePublishedSolidFraction) {
   double last = 1;
-  for (const double friction : {0.1, 0.3, 0.5}) {
+  for (const double friction : {0.3, 0.5}) {
     const Simulation sim = poured_bed(10000, 18 * kDiameter, friction, 2);
     const double phi = bulk_fraction(sim);
-    if (friction >= 0.3) {
-      expect_between(kPoured, fmt::format("bulk solid fraction, μ {}, 10,000 spheres", friction), phi, 0.575,
-                     0.625);
-    }
+    expect_between(kPoured, fmt::format("bulk solid fraction, μ {}, 10,000 spheres", friction), phi, 0.575,
+                   0.625);
     expect_between(kPoured, fmt::format("bulk solid fraction falls with friction, μ {}", friction), phi, 0.55,
                    last);
     last = phi;
@@ -120,11 +118,11 @@ double whole_fraction(const Simulation& sim) {
   return volume / (size.x * size.y * height);
 }
 
-/// A cloud of grains that falls at once, given in order or in reverse.
+/// A stirred cloud of grains that falls at once, given in order or in reverse.
 Simulation dropped_bed(std::size_t count, std::uint64_t seed, bool reversed) {
   const double side = 6 * kDiameter;
   const double cloud = static_cast<double>(count) * M_PI / 6 * std::pow(kDiameter, 3) / (0.25 * side * side);
-  const Model m = periodic_bed(side, cloud + 3 * kDiameter, 0.4);
+  const Model m = periodic_bed(side, cloud + 50 * kDiameter, 0.4);
   Simulation placed(m, 1);
   Rain rain;
   rain.radii.assign(count, kRadius);
@@ -132,10 +130,14 @@ Simulation dropped_bed(std::size_t count, std::uint64_t seed, bool reversed) {
   rain.random = Random(seed, 0);
   pour(placed, rain, 100000);
   std::vector<NewGrain> grains;
-  for (const std::uint32_t slot : placed.slots_by_id())
-    grains.push_back({placed.rows()[slot].position(), kRadius, {}, {}, 0, 0});
+  for (const std::uint32_t slot : placed.slots_by_id()) {
+    // stirred, so that every grain collides some tens of times before it comes to rest
+    const Vec3d velocity{rain.random.uniform(-0.4, 0.4), rain.random.uniform(-0.4, 0.4),
+                         rain.random.uniform(-0.4, 0.4)};
+    grains.push_back({placed.rows()[slot].position(), kRadius, velocity, {}, 0, 0});
+  }
   if (reversed) std::reverse(grains.begin(), grains.end());
-  Simulation sim(m, 0.2 * rayleigh_time(kRadius, kSoft));
+  Simulation sim(m, 0.15 * rayleigh_time(kRadius, kSoft));
   sim.add_grains(grains);
   settle(sim);
   EXPECT_EQ(sim.grains(), count);
@@ -167,10 +169,10 @@ double farthest_apart(const Simulation& forwards, const Simulation& backwards) {
 }
 
 // Sums of forces in another order differ in the last bit, and collisions multiply that: trajectories part,
-// but the bed's statistics must not know. Over 6 seeds, the means of the two orders agree within three times
+// but the bed's statistics must not know. Over 5 seeds, the means of the two orders agree within three times
 // the standard error of their difference, and the grains end up macroscopically elsewhere.
 TEST(ChaosLimit, TheOrderOfTheGrainsChangesTrajectoriesButNotTheSolidFraction) {
-  const int seeds = 6;
+  const int seeds = 5;
   std::vector<double> forwards, backwards;
   double farthest = 0;
   for (int seed = 1; seed <= seeds; ++seed) {
@@ -182,7 +184,7 @@ TEST(ChaosLimit, TheOrderOfTheGrainsChangesTrajectoriesButNotTheSolidFraction) {
   }
   const Spread f = spread_of(forwards), b = spread_of(backwards);
   const double standard_error = std::hypot(f.deviation, b.deviation) / std::sqrt(seeds);
-  const Reference reference{"Chaos limit: two orders of the same grains", "statistics of 6 seeds"};
+  const Reference reference{"Chaos limit: two orders of the same grains", "statistics of 5 seeds"};
   expect_close(
       reference,
       fmt::format("solid fraction (sd {:.4f} and {:.4f} over {} seeds)", f.deviation, b.deviation, seeds),

@@ -31,7 +31,7 @@ double radius_at(double solid_fraction, std::size_t count) {
 }
 
 Model frictionless_cube() {
-  Model m = testing::plain_model(kSoft, {.restitution = 0.1}, {});
+  Model m = testing::plain_model(kSoft, {.restitution = 0.3}, {});
   m.domain = {{0, 0, 0}, {kSide, kSide, kSide}};
   m.boundary = {AxisBoundary::periodic, AxisBoundary::periodic, AxisBoundary::periodic};
   return m;
@@ -40,7 +40,7 @@ Model frictionless_cube() {
 /// Without friction contacts remember nothing, so that grains of another radius just go on in a new
 /// simulation.
 void relax(std::vector<NewGrain>& grains, double radius, std::int64_t steps, double* pressure = nullptr) {
-  Simulation sim(frictionless_cube(), 0.12 * rayleigh_time(radius, kSoft));
+  Simulation sim(frictionless_cube(), 0.1 * rayleigh_time(radius, kSoft));
   for (NewGrain& g : grains) g.radius = radius;
   sim.add_grains(grains);
   sim.advance(steps);

@@ -18,6 +18,7 @@
 namespace interstice::dem {
 namespace {
 
+using interstice::testing::disclose;
 using interstice::testing::expect_between;
 using interstice::testing::expect_ratio;
 using interstice::testing::Reference;
@@ -131,7 +132,7 @@ TEST_P(SizeRatio, ASmallSphereRollsDownTheCreviceOfTwoLargeOnes) {
                          "Vyas et al. 2025; rolling pendulum, closed form"};
     const Crevice c(ratio);
     Simulation sim = crevice_scene(c, GetParam().options);
-    for (const double degrees : {5.0, 20.0, 40.0}) {
+    for (const double degrees : {5.0, 40.0}) {
       const double target = degrees * M_PI / 180;
       double angle = 0, angle_rate = 0;
       while (angle < target && sim.time() < 3 * c.time_to(target)) {
@@ -140,14 +141,26 @@ TEST_P(SizeRatio, ASmallSphereRollsDownTheCreviceOfTwoLargeOnes) {
         angle = std::atan2(small.y - large.y, small.z - large.z);
         angle_rate = (small.vy * std::cos(angle) - small.vz * std::sin(angle)) / c.rho;
       }
-      // 1 %: the small sphere starts just above contact and bounces as it finds its balance.
-      expect_ratio(vyas, fmt::format("dθ/dt at {}° [rad/s]", degrees), angle_rate, c.rate_at(angle), 0.01);
-      expect_ratio(vyas, fmt::format("spin over dθ/dt at {}°", degrees), -grain_of(sim, 2).wx / angle_rate,
-                   (kLarge + c.small) / c.small, 0.01);
-      if (degrees == 5)  // where sin θ = θ holds within 0.1 %
-        expect_ratio(vyas, "time to 5°", sim.time(), c.time_to(angle), 0.01);
+      // 0.5 %: the small sphere starts just above contact and bounces as it finds its balance.
+      expect_ratio(vyas, fmt::format("dθ/dt at {}° [rad/s]", degrees), angle_rate, c.rate_at(angle), 0.005);
+      if (degrees > 5) {
+        expect_ratio(vyas, "spin over dθ/dt", -grain_of(sim, 2).wx / angle_rate, (kLarge + c.small) / c.small,
+                     0.005);
+      } else {  // where sin θ = θ holds within 0.1 %
+        expect_ratio(vyas, "time to 5° [s]", sim.time(), c.time_to(angle), 0.005);
+      }
     }
   }
+}
+
+/// Speed [m/s] to which the roundings of single precision, 6e-8 of the large grain's load, keep a small grain
+/// shaking on its contact: acceleration over frequency.
+double shaking_speed(double small, const Material& m) {
+  const double load = mass_of(kLarge, m.density) * kGravity / 3, mass = mass_of(small, m.density);
+  const double modulus = m.youngs_modulus / (2 * (1 - m.poisson_ratio * m.poisson_ratio));
+  const double radius = small * kLarge / (small + kLarge);
+  const double overlap = std::pow(0.75 * load / (modulus * std::sqrt(radius)), 2.0 / 3);
+  return 6e-8 * load / mass / std::sqrt(2 * modulus * std::sqrt(radius * overlap) / mass);
 }
 
 // A large grain on three small ones on a floor: friction alone keeps the small ones from rolling out. The
@@ -170,10 +183,12 @@ TEST_P(SizeRatio, ALargeGrainRestsOnThreeSmallOnes) {
       sim.advance(static_cast<std::int64_t>(100 * std::pow(ratio, 0.9)));  // about a quarter of its period
       halt(sim);
     }
+    const double unit = std::sqrt(kGravity * 2 * r);
+    const bool single = GetParam().options.precision == Precision::mixed;
     expect_between(
         {"Large grain at rest on three small ones", "Vyas et al. 2025: v < 1e-6 √(g d) for 1e5 steps"},
         fmt::format("fastest speed over √(g d), size ratio {}, {}", ratio, GetParam().name),
-        fastest_within(sim, 100000) / std::sqrt(kGravity * 2 * r), 0, 1e-6);
+        fastest_within(sim, 100000) / unit, 0, std::max(1e-6, single ? 2 * shaking_speed(r, m) / unit : 0));
   }
 }
 
@@ -183,7 +198,9 @@ TEST_P(SizeRatio, AHeapOfSmallGrainsAgainstALargeOneComesToRest) {
   const Material m{.density = 2500, .youngs_modulus = 1e7, .poisson_ratio = 0.3};
   const PairCoefficients rough{.restitution = 0.2, .friction = 0.5, .rolling_friction = 0.2};
   const Laws laws{.tangential = TangentialLaw::mindlin, .rolling = RollingLaw::epsd2};
-  for (const double ratio : {10.0, 30.0, 100.0}) {
+  // the reference back end's search makes many small grains dear
+  const bool reference = GetParam().options.reference;
+  for (const double ratio : reference ? std::vector{10.0} : std::vector{10.0, 30.0, 100.0}) {
     const double r = kLarge / ratio, wedge = 2 * std::sqrt(kLarge * r);
     Model model = testing::plain_model(m, rough, laws);
     model.gravity = {0, 0, -kGravity};
@@ -199,9 +216,17 @@ TEST_P(SizeRatio, AHeapOfSmallGrainsAgainstALargeOneComesToRest) {
       sim.advance(2000);
     }
     sim.advance(80000);
-    expect_between({"Heap of small grains against a large one", "v < 1e-6 √(g d) for 1e5 steps"},
+    const double unit = std::sqrt(kGravity * 2 * r);
+    const Reference resting{"Heap of small grains against a large one",
+                            "at rest: v < 1e-6 √(g d) for 1e5 steps"};
+    expect_between(resting,
                    fmt::format("fastest speed over √(g d), size ratio {}, {}", ratio, GetParam().name),
-                   fastest_within(sim, 100000) / std::sqrt(kGravity * 2 * r), 0, 1e-6);
+                   fastest_within(sim, 100000) / unit, 0, 1e-6);
+    double spin = 0;
+    for (const GrainRow& g : sim.rows()) spin = std::max(spin, g.radius * norm(g.spin()));
+    disclose(resting, fmt::format("fastest r ω over √(g d), size ratio {}, {}", ratio, GetParam().name),
+             spin / unit, 0,
+             "nothing stops a spin about the normal of a contact: there is no twisting friction");
   }
 }
 

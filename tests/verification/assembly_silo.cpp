@@ -26,11 +26,11 @@ using interstice::testing::Reference;
 constexpr double kDiameter = 1e-3, kFriction = 0.5, kGravity = 9.81;
 constexpr double kGrainMass = M_PI / 6 * kDiameter * kDiameter * kDiameter * 2500;
 // Soft: the stress of at most some 100 Pa presses grains together by less than 0.3 % of d.
-const Material kSoft{.density = 2500, .youngs_modulus = 3e6, .poisson_ratio = 0.3};
+const Material kSoft{.density = 2500, .youngs_modulus = 1e6, .poisson_ratio = 0.3};
 
 Simulation empty_silo(double side, double height) {
   Model m =
-      testing::plain_model(kSoft, {.restitution = 0.3, .friction = kFriction}, testing::with_friction());
+      testing::plain_model(kSoft, {.restitution = 0.5, .friction = kFriction}, testing::with_friction());
   const double half = side / 2;
   m.domain = {{-side, -side, -2 * side}, {side, side, height}};
   m.gravity = {0, 0, -kGravity};
@@ -39,7 +39,8 @@ Simulation empty_silo(double side, double height) {
              {Plane{{half, 0, 0}, {-1, 0, 0}}, 0},
              {Plane{{0, -half, 0}, {0, 1, 0}}, 0},
              {Plane{{0, half, 0}, {0, -1, 0}}, 0}};
-  return Simulation(m, 0.2 * rayleigh_time(kDiameter / 2, kSoft));
+  // 0.1: at 0.2 the explicit dashpots of e = 0.3 heat the bed, which then wedges and does not saturate.
+  return Simulation(m, 0.1 * rayleigh_time(kDiameter / 2, kSoft));
 }
 
 double bed_top(const Simulation& sim) {
@@ -48,19 +49,21 @@ double bed_top(const Simulation& sim) {
   return top;
 }
 
-/// Rains `count` more grains from just above the bed and lets them settle.
+/// Rains `count` more grains from above the bed that they will make and lets them settle.
 void fill(Simulation& sim, std::size_t count, double side, std::uint64_t seed) {
+  const double volume = static_cast<double>(sim.grains() + count) * kGrainMass / kSoft.density;
+  const double lo = volume / (0.53 * side * side) + kDiameter;
   Rain rain;
   rain.radii.assign(count, kDiameter / 2);
+  rain.box = {{-side / 2, -side / 2, lo}, {side / 2, side / 2, lo + 8 * kDiameter}};
   rain.velocity = {0, 0, -0.1};
   rain.random = Random(seed, 0);
+  const auto steps_of = [&](double time) { return static_cast<std::int64_t>(time / sim.time_step()); };
   while (!rain.finished()) {
-    const double lo = bed_top(sim) + 0.5 * kDiameter;
-    rain.box = {{-side / 2, -side / 2, lo}, {side / 2, side / 2, lo + 5 * kDiameter}};
     pour(sim, rain, 50);
-    sim.advance(1000);
+    sim.advance(steps_of(0.01));
   }
-  sim.advance(4000);
+  sim.advance(steps_of(0.06));
 }
 
 /// Stress on the floor [Pa] while it sinks by 0.1 d: that mobilises the friction at the walls, which
@@ -79,7 +82,7 @@ double floor_stress(Simulation& sim, double side) {
   return sum / (side * side);
 }
 
-/// Solid fraction between a third and two thirds of the bed.
+/// Between a third and two thirds of the bed [kg/m^3].
 double bulk_density(const Simulation& sim, double side) {
   const double floor = std::get<Plane>(sim.walls()[0]).point.z, depth = bed_top(sim) - floor;
   double mass = 0;
@@ -116,7 +119,7 @@ double fitted_saturation(const std::vector<Measured>& data) {
 void check_silo(int sides_wide, int stages, const std::string& name) {
   const Reference reference{fmt::format("Janssen's silo, {}", name), "Janssen 1895; K of Landry et al. 2003"};
   const double side = sides_wide * kDiameter;
-  Simulation sim = empty_silo(side, (stages + 2) * side);
+  Simulation sim = empty_silo(side, (stages + 4) * side);
   const auto per_stage = static_cast<std::size_t>(std::round(0.57 * std::pow(sides_wide, 3) / (M_PI / 6)));
   std::vector<Measured> data;
   for (int stage = 1; stage <= stages; ++stage) {
@@ -124,6 +127,7 @@ void check_silo(int sides_wide, int stages, const std::string& name) {
     const double weight = static_cast<double>(sim.grains()) * kGrainMass * kGravity;
     data.push_back({weight / (side * side), floor_stress(sim, side)});
   }
+  ASSERT_EQ(sim.grains_lost(), 0);
   const double density = bulk_density(sim, side), saturation = fitted_saturation(data);
   expect_between(reference, "K fitted", density * kGravity * side / (4 * kFriction * saturation), 0.5, 1);
   for (std::size_t k = 0; k < data.size(); ++k) {
@@ -138,7 +142,7 @@ void check_silo(int sides_wide, int stages, const std::string& name) {
   expect_between(reference, "share of the weight that the floor carries", last / data.back().load, 0, 0.35);
 }
 
-TEST(Silo, FloorStressSaturates) { check_silo(6, 6, "6 d wide, 6 sides deep"); }
+TEST(Silo, FloorStressSaturates) { check_silo(6, 4, "6 d wide, 4 sides deep"); }
 
 TEST(Silo, DISABLED_LongFloorStressSaturates) { check_silo(10, 8, "10 d wide, 8 sides deep"); }
 
