@@ -135,5 +135,44 @@ TEST(Slope, EnergyBalanceClosesWithAnyFriction) {
   }
 }
 
+/// A large grain held between two walls, a small one in the groove between it and the left wall, both with
+/// friction: the largest speed over sqrt(g d) in 1e5 steps after settling, d that of the small one.
+double unrest(double ratio, const BackEnd& b) {
+  const double r = 20e-6, big = ratio * r, gap = 1e-5;
+  Model m = open_model({8200, 1e8, 0.3}, {.restitution = 0.3, .friction = 0.6},
+                       {.tangential = TangentialLaw::mindlin}, 10 * big);
+  m.gravity = {0, 0, -9.81};
+  m.walls = {{Plane{{0, 0, 0}, {0, 0, 1}}, 0},
+             {Plane{{-big * (1 - gap), 0, 0}, {1, 0, 0}}, 0},
+             {Plane{{big * (1 - gap), 0, 0}, {-1, 0, 0}}, 0}};
+  // As stiff as the floor under the large grain: the stiffest contact over the lightest mass.
+  const double load = sphere_mass(big, 8200) * 9.81, modulus = 1e8 / 1.82;
+  const double overlap = std::pow(load / (4.0 / 3 * modulus * std::sqrt(big)), 2.0 / 3) + gap * big;
+  const double light = std::sqrt(sphere_mass(r, 8200) / (2 * modulus * std::sqrt(r * 1e-4 * r)));
+  const double heavy = std::sqrt(sphere_mass(big, 8200) / (2 * modulus * std::sqrt(big * overlap)));
+  Simulation sim(m, 0.05 * std::min(light, heavy), b.options);
+  const double across = big - r, along = big + r;  // the small one touches the large one and the wall
+  sim.add_grains(
+      std::vector<NewGrain>{grain({0, 0, big * (1 - gap)}, big),
+                            grain({-across, 0, big + std::sqrt(along * along - across * across)}, r)});
+  sim.advance(static_cast<std::int64_t>(200000 + 2000 * ratio));
+  double fastest = 0;
+  for (int k = 0; k < 1000; ++k) {
+    sim.advance(100);
+    keep_worst(fastest, motion_statistics(sim).fastest);
+  }
+  return fastest / std::sqrt(9.81 * 2 * r);
+}
+
+TEST(SizeRatio, ASmallGrainRestsInTheGrooveOfALargeOne) {
+  // Vyas et al. (Comput. Phys. Commun. 310, 109524, 2025): velocities half a step late make a friction that
+  // is not there, above a ratio of 3, and such a grain does not come to rest.
+  for (const double ratio : {2.0, 3.0, 10.0, 30.0, 100.0}) {
+    expect_small("size ratio", fmt::format("{:g}: a small grain in a groove, mu = 0.6, 1e5 steps", ratio),
+                 "at rest: fastest, of sqrt(g d)", 1e-6, 1e-6,
+                 [&](const BackEnd& b) { return unrest(ratio, b); });
+  }
+}
+
 }  // namespace
 }  // namespace interstice::dem
