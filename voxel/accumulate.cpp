@@ -1,11 +1,16 @@
 #include "voxel/accumulate.h"
 
 #include <tbb/blocked_range.h>
+#include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <bit>
+#include <iterator>
+#include <limits>
 
 #include "voxel/methods.h"
+#include "voxel/small_spheres.h"
 
 namespace interstice::voxel {
 
@@ -13,69 +18,111 @@ namespace {
 
 constexpr std::size_t kNone = static_cast<std::size_t>(-1);
 
+/// A region with spheres, walls, or both.
 struct Task {
-  std::uint64_t key;
-  std::size_t bin = kNone;  // of the spheres, or none
-  bool wall = false, full = false;
+  std::uint64_t key;                          // of the region
+  std::size_t bin = kNone;                    // of its spheres, or none
+  std::size_t first_wall = 0, last_wall = 0;  // of its wall blocks, in Walled::blocks
 };
 
-std::vector<Task> merge(const Bins& bins, const std::vector<WallBlock>& walls) {
+/// The wall blocks, grouped by region.
+struct Walled {
+  struct Entry {
+    std::uint64_t region, block;
+    bool full;
+  };
+  std::vector<Entry> blocks;  // ascending by region, then by block
+};
+
+Walled by_region(const Lattice& lattice, const std::vector<WallBlock>& walls) {
+  const BlockGrid blocks(lattice), regions(lattice, kRegion);
+  Walled walled;
+  for (const WallBlock& wall : walls) {
+    std::array<std::int64_t, 3> at = blocks.block(wall.key);
+    for (std::int64_t& b : at) b /= kRegion / kBlock;
+    walled.blocks.push_back({regions.key(at), wall.key, wall.full});
+  }
+  std::stable_sort(walled.blocks.begin(), walled.blocks.end(),
+                   [](const auto& a, const auto& b) { return a.region < b.region; });
+  return walled;
+}
+
+std::vector<Task> merge(const Bins& bins, const Walled& walls) {
   std::vector<Task> tasks;
-  tasks.reserve(bins.keys.size() + walls.size());
   std::size_t b = 0, w = 0;
-  while (b < bins.keys.size() || w < walls.size()) {
-    const bool take_bin = b < bins.keys.size() && (w == walls.size() || bins.keys[b] <= walls[w].key);
-    const bool take_wall = w < walls.size() && (b == bins.keys.size() || walls[w].key <= bins.keys[b]);
-    Task task{take_bin ? bins.keys[b] : walls[w].key};
-    if (take_bin) task.bin = b++;
-    if (take_wall) {
-      task.wall = true;
-      task.full = walls[w++].full;
-    }
+  while (b < bins.keys.size() || w < walls.blocks.size()) {
+    const bool bin =
+        w == walls.blocks.size() || (b < bins.keys.size() && bins.keys[b] <= walls.blocks[w].region);
+    Task task{bin ? bins.keys[b] : walls.blocks[w].region};
+    if (bin) task.bin = b++;
+    task.first_wall = w;
+    while (w < walls.blocks.size() && walls.blocks[w].region == task.key) ++w;
+    task.last_wall = w;
     tasks.push_back(task);
   }
   return tasks;
 }
 
-// Shares of the cells of one block, in the leaf's own order.
-struct Shares {
-  double solid[kBlockCells];
-  double mass[kBlockCells];  // [kg/m^3], only where asked for
-  double wall[kBlockCells];
+/// Sums over the cells of a region, kept from region to region by each thread.
+struct Sums {
+  CellRows solid;
+  CellRows mass;                   // [kg/m^3], only where asked for
+  std::vector<SmallSphere> small;  // waiting to be added, in order
+  std::vector<double> densities;   // of those
 };
 
-void add_spheres(const Accumulation& what, std::size_t bin, const CellRange& cells, Shares& shares) {
-  const Lattice& lattice = what.request.lattice;
+void add_waiting(const Lattice& lattice, bool mass, Sums& sums) {
+  if (sums.small.empty()) return;
+  add_small_spheres(lattice, sums.small.data(), sums.small.size(), nullptr, sums.solid);
+  if (mass)
+    add_small_spheres(lattice, sums.small.data(), sums.small.size(), sums.densities.data(), sums.mass);
+  sums.small.clear();
+  sums.densities.clear();
+}
+
+/// Any method, any size: leaf by leaf.
+void add_by_blocks(const FieldRequest& request, const PlacedSphere& sphere, const CellRange& touched,
+                   const double* density, Sums& sums) {
   double fractions[kBlockCells];
+  std::array<std::int64_t, 3> at;
+  const auto from = [](std::int64_t cell) { return cell / kBlock * kBlock; };
+  for (at[0] = from(touched.lo[0]); at[0] < touched.hi[0]; at[0] += kBlock)
+    for (at[1] = from(touched.lo[1]); at[1] < touched.hi[1]; at[1] += kBlock)
+      for (at[2] = from(touched.lo[2]); at[2] < touched.hi[2]; at[2] += kBlock) {
+        const CellRange cells = intersection(touched, {at, {at[0] + kBlock, at[1] + kBlock, at[2] + kBlock}});
+        if (request.method != Method::centre && !touches(request.lattice, sphere, cells)) continue;
+        method_fractions(request, sphere, cells, fractions);
+        const double* next = fractions;
+        const auto nz = cells.size(2);
+        for (std::int64_t i = cells.lo[0]; i < cells.hi[0]; ++i)
+          for (std::int64_t j = cells.lo[1]; j < cells.hi[1]; ++j, next += nz) {
+            double* solid = sums.solid.row(i, j) + (cells.lo[2] - sums.solid.cells().lo[2]);
+            for (std::int64_t k = 0; k < nz; ++k) solid[k] += next[k];
+            if (!density) continue;
+            double* mass = sums.mass.row(i, j) + (cells.lo[2] - sums.mass.cells().lo[2]);
+            for (std::int64_t k = 0; k < nz; ++k) mass[k] += *density * next[k];
+          }
+      }
+}
+
+void add_spheres(const Accumulation& what, std::size_t bin, const CellRange& cells, Sums& sums) {
+  const Lattice& lattice = what.request.lattice;
   for (std::size_t e = what.bins.first[bin]; e < what.bins.first[bin + 1]; ++e) {
     const BinEntry& entry = what.bins.entries[e];
     const PlacedSphere sphere = moved(place(lattice, what.spheres, entry.sphere), lattice, entry.image);
-    const CellRange touched = intersection(bounding_cells(lattice, sphere), cells);
-    if (touched.empty()) continue;
-    method_fractions(what.request, sphere, touched, fractions);
+    const CellRange bounding = bounding_cells(lattice, sphere);
     const double density = !what.mass             ? 0
                            : what.spheres.density ? what.spheres.density[entry.sphere]
                                                   : what.request.density;
-    const double* next = fractions;
-    const auto nz = touched.size(2);
-    for (std::int64_t i = touched.lo[0]; i < touched.hi[0]; ++i)
-      for (std::int64_t j = touched.lo[1]; j < touched.hi[1]; ++j, next += nz) {
-        const std::int64_t row =
-            ((i - cells.lo[0]) * kBlock + (j - cells.lo[1])) * kBlock + touched.lo[2] - cells.lo[2];
-        for (std::int64_t k = 0; k < nz; ++k) shares.solid[row + k] += next[k];
-        if (what.mass)
-          for (std::int64_t k = 0; k < nz; ++k) shares.mass[row + k] += density * next[k];
-      }
+    if (what.request.method == Method::exact && is_small(bounding)) {
+      sums.small.push_back({sphere, bounding});
+      if (what.mass) sums.densities.push_back(density);
+      continue;
+    }
+    add_waiting(lattice, what.mass, sums);  // spheres are added in ascending order
+    add_by_blocks(what.request, sphere, intersection(bounding, cells), what.mass ? &density : nullptr, sums);
   }
-}
-
-void add_walls(const Accumulation& what, const CellRange& cells, Shares& shares) {
-  double fractions[kBlockCells];
-  wall_fractions(what.walls, what.request.lattice, cells, fractions);
-  const double* next = fractions;
-  for (std::int64_t i = 0; i < cells.size(0); ++i)
-    for (std::int64_t j = 0; j < cells.size(1); ++j)
-      for (std::int64_t k = 0; k < cells.size(2); ++k) shares.wall[(i * kBlock + j) * kBlock + k] = *next++;
+  add_waiting(lattice, what.mass, sums);
 }
 
 std::unique_ptr<Leaf> new_leaf(const CellRange& cells, float background) {
@@ -84,49 +131,115 @@ std::unique_ptr<Leaf> new_leaf(const CellRange& cells, float background) {
   return std::make_unique<Leaf>(origin, background, false);
 }
 
-// Walls may reach beyond the part of the lattice that averages look at.
-void keep(std::int64_t i, std::int64_t j, std::int64_t k, double solid, double available,
-          DenseShares& dense) {
-  if (!dense.range.contains(i, j, k)) return;
-  const std::size_t at = dense.index(i, j, k);
-  dense.solid[at] = solid;
-  if (!dense.available.empty()) dense.available[at] = available;
+/// The active cells of a leaf, a byte a row of eight.
+void set_active(Leaf& leaf, const std::uint8_t (&rows)[kBlock * kBlock]) {
+  Leaf::NodeMaskType mask;
+  for (int x = 0; x < kBlock; ++x) {
+    std::uint64_t word = 0;
+    for (int y = 0; y < kBlock; ++y) word |= static_cast<std::uint64_t>(rows[x * kBlock + y]) << (8 * y);
+    mask.getWord<std::uint64_t>(static_cast<openvdb::Index>(x)) = word;
+  }
+  leaf.setValueMask(mask);
 }
 
-// Rounds the shares to leaves and adds up what the field's sums need, in double.
-void finish(const Accumulation& what, const Task& task, const CellRange& cells, const Shares& shares,
-            BlockResult& result) {
-  const bool spheres = task.bin != kNone;
-  if (spheres) result.solid_leaf = new_leaf(cells, 0.0f);
-  if (spheres && what.mass) result.mass_leaf = new_leaf(cells, 0.0f);
-  if (task.wall) result.available_leaf = new_leaf(cells, 1.0f);
+/// The leaves of one block in the making.
+struct Leaves {
+  float *solid, *empty, *mass = nullptr, *available = nullptr;
+  std::uint8_t solid_on[kBlock * kBlock] = {}, any_on[kBlock * kBlock] = {}, wall_on[kBlock * kBlock] = {};
+};
+
+/// One row of eight cells (fewer at the lattice's end): rounds it to the leaves and adds it to the sums.
+/// `wall` is null where there is none.
+void finish_row(const double* solid, const double* mass, const double* wall, int row, int cells,
+                Leaves& leaves, BlockResult& result) {
+  const int at = row * kBlock;
+  std::uint8_t solid_on = 0, any_on = 0, wall_on = 0;
+  for (int k = 0; k < cells; ++k) {
+    const double share = wall ? wall[k] : 0, available = 1 - share, empty = available - solid[k];
+    result.void_min = std::min(result.void_min, empty);
+    result.void_max = std::max(result.void_max, empty);
+    result.negative += empty < -1e-12;
+    result.solid += solid[k];
+    result.wall += share;
+    const auto rounded = static_cast<float>(solid[k]);
+    result.written += static_cast<double>(rounded);
+    const bool has_solid = solid[k] != 0, has_wall = share != 0;
+    solid_on |= static_cast<std::uint8_t>(has_solid << k);
+    any_on |= static_cast<std::uint8_t>((has_solid || has_wall) << k);
+    wall_on |= static_cast<std::uint8_t>(has_wall << k);
+    leaves.solid[at + k] = rounded;
+    leaves.empty[at + k] = static_cast<float>(empty);
+    if (mass) leaves.mass[at + k] = static_cast<float>(mass[k]);
+    if (wall) leaves.available[at + k] = static_cast<float>(available);
+  }
+  leaves.solid_on[row] = solid_on, leaves.any_on[row] = any_on, leaves.wall_on[row] = wall_on;
+  result.active += std::popcount(any_on);
+}
+
+void keep(const double* solid, const double* wall, std::int64_t i, std::int64_t j, const CellRange& cells,
+          DenseShares& dense) {
+  const CellRange row{{i, j, cells.lo[2]}, {i + 1, j + 1, cells.hi[2]}};
+  const CellRange inside = intersection(row, dense.range);  // walls may reach beyond what averages look at
+  for (std::int64_t k = inside.lo[2]; k < inside.hi[2] && !inside.empty(); ++k) {
+    const std::size_t at = dense.index(i, j, k);
+    dense.solid[at] = solid[k - cells.lo[2]];
+    if (!dense.available.empty() && wall) dense.available[at] = 1 - wall[k - cells.lo[2]];
+  }
+}
+
+/// Rounds a block's cells to leaves and adds up what the field's sums need, in double.
+void finish_block(const Accumulation& what, const CellRange& cells, const double* walls, const Sums& sums,
+                  BlockResult& result) {
+  const bool mass = what.mass;
+  result.solid_leaf = new_leaf(cells, 0.0f);
   result.void_leaf = new_leaf(cells, 1.0f);
-  bool first = true;
+  if (mass) result.mass_leaf = new_leaf(cells, 0.0f);
+  if (walls) result.available_leaf = new_leaf(cells, 1.0f);
+  Leaves leaves;
+  leaves.solid = result.solid_leaf->buffer().data();
+  leaves.empty = result.void_leaf->buffer().data();
+  if (mass) leaves.mass = result.mass_leaf->buffer().data();
+  if (walls) leaves.available = result.available_leaf->buffer().data();
+  result.void_min = std::numeric_limits<double>::infinity(), result.void_max = -result.void_min;
+  const std::int64_t z = cells.lo[2] - sums.solid.cells().lo[2];
+  const int nz = static_cast<int>(cells.size(2));
+  for (std::int64_t i = cells.lo[0]; i < cells.hi[0]; ++i)
+    for (std::int64_t j = cells.lo[1]; j < cells.hi[1]; ++j) {
+      const int row = static_cast<int>((i - cells.lo[0]) * kBlock + (j - cells.lo[1]));
+      const double* solid = sums.solid.row(i, j) + z;
+      const double* wall = walls ? walls + row * kBlock : nullptr;
+      finish_row(solid, mass ? sums.mass.row(i, j) + z : nullptr, wall, row, nz, leaves, result);
+      if (what.dense) keep(solid, wall, i, j, cells, *what.dense);
+    }
+  set_active(*result.solid_leaf, leaves.solid_on);
+  set_active(*result.void_leaf, leaves.any_on);
+  if (mass) set_active(*result.mass_leaf, leaves.solid_on);
+  if (walls) set_active(*result.available_leaf, leaves.wall_on);
+}
+
+/// The walls' shares of a block's cells, in the leaf's own order.
+void fill_walls(const Accumulation& what, const CellRange& cells, bool full, double* shares) {
+  if (full) {
+    std::fill_n(shares, kBlockCells, 1.0);
+    return;
+  }
+  double fractions[kBlockCells];
+  wall_fractions(what.walls, what.request.lattice, cells, fractions);
+  const double* next = fractions;
   for (std::int64_t i = 0; i < cells.size(0); ++i)
     for (std::int64_t j = 0; j < cells.size(1); ++j)
-      for (std::int64_t k = 0; k < cells.size(2); ++k) {
-        const auto at = static_cast<openvdb::Index>((i * kBlock + j) * kBlock + k);
-        const double solid = spheres ? shares.solid[at] : 0, wall = task.wall ? shares.wall[at] : 0;
-        const double available = 1 - wall, empty = available - solid;
-        result.void_min = first ? empty : std::min(result.void_min, empty);
-        result.void_max = first ? empty : std::max(result.void_max, empty);
-        first = false;
-        if (solid == 0 && wall == 0) continue;
-        ++result.active;
-        result.solid += solid;
-        result.wall += wall;
-        result.negative += empty < -1e-12;
-        result.void_leaf->setValueOn(at, static_cast<float>(empty));
-        if (solid > 0) {
-          const auto rounded = static_cast<float>(solid);
-          result.written += static_cast<double>(rounded);
-          result.solid_leaf->setValueOn(at, rounded);
-          if (what.mass) result.mass_leaf->setValueOn(at, static_cast<float>(shares.mass[at]));
-        }
-        if (wall > 0) result.available_leaf->setValueOn(at, static_cast<float>(available));
-        if (what.dense)
-          keep(cells.lo[0] + i, cells.lo[1] + j, cells.lo[2] + k, solid, available, *what.dense);
-      }
+      for (std::int64_t k = 0; k < cells.size(2); ++k) shares[(i * kBlock + j) * kBlock + k] = *next++;
+}
+
+bool holds_solid(const CellRows& solid, const CellRange& cells) {
+  const std::int64_t z = cells.lo[2] - solid.cells().lo[2];
+  for (std::int64_t i = cells.lo[0]; i < cells.hi[0]; ++i)
+    for (std::int64_t j = cells.lo[1]; j < cells.hi[1]; ++j) {
+      const double* row = solid.row(i, j) + z;
+      for (std::int64_t k = 0; k < cells.size(2); ++k)
+        if (row[k] != 0) return true;
+    }
+  return false;
 }
 
 void fill_dense_wall(const CellRange& cells, DenseShares& dense) {
@@ -136,44 +249,64 @@ void fill_dense_wall(const CellRange& cells, DenseShares& dense) {
       for (std::int64_t k = inside.lo[2]; k < inside.hi[2]; ++k) dense.available[dense.index(i, j, k)] = 0;
 }
 
-BlockResult compute_block(const Accumulation& what, const BlockGrid& grid, const Task& task) {
-  const Lattice& lattice = what.request.lattice;
-  BlockResult result;
-  result.block = grid.block(task.key);
-  const CellRange cells = block_cells(lattice, result.block);
+/// One block of a region whose cells are summed. Nothing when it is empty.
+void compute_block(const Accumulation& what, const std::array<std::int64_t, 3>& block,
+                   const Walled::Entry* wall, bool spheres, const Sums& sums,
+                   std::vector<BlockResult>& results) {
+  const CellRange cells = block_cells(what.request.lattice, block);
+  const bool solid = spheres && holds_solid(sums.solid, cells);
+  if (!solid && !wall) return;
+  BlockResult& result = results.emplace_back();
+  result.block = block;
   result.cells = cells.cells();
-  if (task.full && task.bin == kNone && result.cells == kBlockCells) {
+  if (wall && wall->full && !solid && result.cells == kBlockCells) {
     result.wall_tile = true;
     result.wall = kBlockCells;
     result.active = kBlockCells;
     result.void_min = result.void_max = 0;
     if (what.dense) fill_dense_wall(cells, *what.dense);
-    return result;
+    return;
   }
-  Shares shares;
-  if (task.bin != kNone) {
-    std::fill_n(shares.solid, kBlockCells, 0.0);
-    if (what.mass) std::fill_n(shares.mass, kBlockCells, 0.0);
-    add_spheres(what, task.bin, cells, shares);
-  }
-  if (task.wall && task.full)
-    std::fill_n(shares.wall, kBlockCells, 1.0);
-  else if (task.wall)
-    add_walls(what, cells, shares);
-  finish(what, task, cells, shares, result);
-  return result;
+  double shares[kBlockCells];
+  if (wall) fill_walls(what, cells, wall->full, shares);
+  finish_block(what, cells, wall ? shares : nullptr, sums, result);
+}
+
+std::vector<BlockResult> compute_region(const Accumulation& what, const Walled& walled, const Task& task,
+                                        Sums& sums) {
+  const Lattice& lattice = what.request.lattice;
+  const std::array<std::int64_t, 3> region = BlockGrid(lattice, kRegion).block(task.key);
+  const CellRange cells = block_cells(lattice, region, kRegion);
+  sums.solid.reset(cells);
+  if (what.mass) sums.mass.reset(cells);
+  if (task.bin != kNone) add_spheres(what, task.bin, cells, sums);
+  const BlockGrid grid(lattice);
+  std::vector<BlockResult> results;
+  std::size_t wall = task.first_wall;
+  std::array<std::int64_t, 3> b;
+  for (b[0] = cells.lo[0] / kBlock; b[0] * kBlock < cells.hi[0]; ++b[0])
+    for (b[1] = cells.lo[1] / kBlock; b[1] * kBlock < cells.hi[1]; ++b[1])
+      for (b[2] = cells.lo[2] / kBlock; b[2] * kBlock < cells.hi[2]; ++b[2]) {
+        const bool walls = wall < task.last_wall && walled.blocks[wall].block == grid.key(b);
+        compute_block(what, b, walls ? &walled.blocks[wall] : nullptr, task.bin != kNone, sums, results);
+        wall += walls;
+      }
+  return results;
 }
 
 }  // namespace
 
 std::vector<BlockResult> accumulate(const Accumulation& what) {
-  const BlockGrid grid(what.request.lattice);
-  const std::vector<Task> tasks = merge(what.bins, what.wall_blocks);
-  std::vector<BlockResult> results(tasks.size());
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, tasks.size(), 4), [&](const auto& range) {
+  const Walled walled = by_region(what.request.lattice, what.wall_blocks);
+  const std::vector<Task> tasks = merge(what.bins, walled);
+  std::vector<std::vector<BlockResult>> regions(tasks.size());
+  tbb::enumerable_thread_specific<Sums> sums;
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, tasks.size(), 1), [&](const auto& range) {
     for (std::size_t t = range.begin(); t != range.end(); ++t)
-      results[t] = compute_block(what, grid, tasks[t]);
+      regions[t] = compute_region(what, walled, tasks[t], sums.local());
   });
+  std::vector<BlockResult> results;
+  for (auto& region : regions) std::move(region.begin(), region.end(), std::back_inserter(results));
   return results;
 }
 

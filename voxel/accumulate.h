@@ -1,4 +1,6 @@
-// From spheres and walls to the leaves of the field's grids, one block of cells at a time.
+// From spheres and walls to the leaves of the field's grids. Cells are summed in regions that fit into a
+// processor's own cache, so that a sphere is worked on once (or a little more often, at their borders), and
+// then rounded to leaves, block by block.
 #pragma once
 
 #include <openvdb/openvdb.h>
@@ -16,6 +18,9 @@ namespace interstice::voxel {
 using Leaf = openvdb::FloatTree::LeafNodeType;
 static_assert(Leaf::DIM == kBlock && Leaf::SIZE == kBlockCells);
 
+/// Edge of a region in cells: four leaves.
+inline constexpr std::int64_t kRegion = 4 * kBlock;
+
 /// What a block contributes. Sums are over its cells, in shares of a cell.
 struct BlockResult {
   std::array<std::int64_t, 3> block{0, 0, 0};
@@ -27,19 +32,20 @@ struct BlockResult {
   std::unique_ptr<Leaf> solid_leaf, void_leaf, available_leaf, mass_leaf;
 };
 
-/// What all blocks share.
+/// What all regions share.
 struct Accumulation {
   const SpheresView& spheres;
   const FieldRequest& request;
-  const Bins& bins;
-  const Solids& walls;  // relative to the lattice
-  const std::vector<WallBlock>& wall_blocks;
-  bool mass = false;             // whether to fill mass densities
-  DenseShares* dense = nullptr;  // where averages are taken from, or null
+  const Bins& bins;                           // by regions
+  const Solids& walls;                        // relative to the lattice
+  const std::vector<WallBlock>& wall_blocks;  // by blocks
+  bool mass = false;                          // whether to fill mass densities
+  DenseShares* dense = nullptr;               // where averages are taken from, or null
 };
 
-/// One result per block that has something in it, ascending by key. Every voxel sums over spheres in
-/// ascending order of index, in one thread: the same bits however many threads share the blocks.
+/// One result per block that has something in it, in an order that depends on the lattice alone. Every voxel
+/// sums over spheres in ascending order of index, in one thread: the same bits however many threads share the
+/// regions.
 std::vector<BlockResult> accumulate(const Accumulation& what);
 
 }  // namespace interstice::voxel

@@ -12,12 +12,24 @@ namespace interstice::voxel {
 
 namespace {
 
+/// The smallest range that holds both.
+CellRange united(const CellRange& a, const CellRange& b) {
+  if (a.empty()) return b;
+  CellRange all;
+  for (int axis = 0; axis < 3; ++axis) {
+    all.lo[axis] = std::min(a.lo[axis], b.lo[axis]);
+    all.hi[axis] = std::max(a.hi[axis], b.hi[axis]);
+  }
+  return all;
+}
+
 constexpr double kMaxPeriods = 64;  // a sphere that overlaps its own images this often is a mistake in units
 
 // Calls visit(key, image) for every block that an image of the sphere touches, in ascending order of images.
 template <class Visit>
-void for_each_block_touched(const Lattice& lattice, const BlockGrid& grid, const PlacedSphere& sphere,
-                            const std::array<bool, 3>& periodic, const Visit& visit) {
+void for_each_block_touched(const Lattice& lattice, const BlockGrid& grid, std::int64_t edge,
+                            const PlacedSphere& sphere, const std::array<bool, 3>& periodic,
+                            CellRange& reached, const Visit& visit) {
   const ImageRange images = images_of(lattice, sphere, periodic);
   std::array<std::int32_t, 3> m;
   for (m[0] = images.lo[0]; m[0] <= images.hi[0]; ++m[0])
@@ -26,11 +38,12 @@ void for_each_block_touched(const Lattice& lattice, const BlockGrid& grid, const
         const PlacedSphere image = moved(sphere, lattice, m);
         const CellRange cells = intersection(bounding_cells(lattice, image), all_cells(lattice));
         if (cells.empty()) continue;
+        reached = united(reached, cells);
         std::array<std::int64_t, 3> b;
-        for (b[0] = cells.lo[0] / kBlock; b[0] <= (cells.hi[0] - 1) / kBlock; ++b[0])
-          for (b[1] = cells.lo[1] / kBlock; b[1] <= (cells.hi[1] - 1) / kBlock; ++b[1])
-            for (b[2] = cells.lo[2] / kBlock; b[2] <= (cells.hi[2] - 1) / kBlock; ++b[2])
-              if (touches(lattice, image, block_cells(lattice, b))) visit(grid.key(b), m);
+        for (b[0] = cells.lo[0] / edge; b[0] <= (cells.hi[0] - 1) / edge; ++b[0])
+          for (b[1] = cells.lo[1] / edge; b[1] <= (cells.hi[1] - 1) / edge; ++b[1])
+            for (b[2] = cells.lo[2] / edge; b[2] <= (cells.hi[2] - 1) / edge; ++b[2])
+              if (touches(lattice, image, block_cells(lattice, b, edge))) visit(grid.key(b), m);
       }
 }
 
@@ -71,11 +84,11 @@ void group_by_key(std::vector<KeyedEntry>& keyed, std::int64_t blocks, Bins& bin
 
 }  // namespace
 
-CellRange block_cells(const Lattice& lattice, const std::array<std::int64_t, 3>& block) {
+CellRange block_cells(const Lattice& lattice, const std::array<std::int64_t, 3>& block, std::int64_t edge) {
   CellRange cells;
   for (int axis = 0; axis < 3; ++axis) {
-    cells.lo[axis] = block[axis] * kBlock;
-    cells.hi[axis] = std::min(cells.lo[axis] + kBlock, lattice.n[axis]);
+    cells.lo[axis] = block[axis] * edge;
+    cells.hi[axis] = std::min(cells.lo[axis] + edge, lattice.n[axis]);
   }
   return cells;
 }
@@ -95,16 +108,17 @@ ImageRange images_of(const Lattice& lattice, const PlacedSphere& sphere,
   return images;
 }
 
-Bins bin_spheres(const SpheresView& spheres, const Lattice& lattice, const std::array<bool, 3>& periodic) {
-  const BlockGrid grid(lattice);
+Bins bin_spheres(const SpheresView& spheres, const Lattice& lattice, const std::array<bool, 3>& periodic,
+                 std::int64_t edge) {
+  const BlockGrid grid(lattice, edge);
   std::vector<KeyedEntry> keyed;
   keyed.reserve(spheres.count * 2);
+  Bins bins;
   for (std::size_t s = 0; s < spheres.count; ++s)
-    for_each_block_touched(lattice, grid, place(lattice, spheres, s), periodic,
+    for_each_block_touched(lattice, grid, edge, place(lattice, spheres, s), periodic, bins.reached,
                            [&](std::uint64_t key, const std::array<std::int32_t, 3>& image) {
                              keyed.push_back({key, {static_cast<std::uint32_t>(s), image}});
                            });
-  Bins bins;
   group_by_key(keyed, grid.blocks(), bins);
   return bins;
 }

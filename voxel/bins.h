@@ -12,12 +12,12 @@
 
 namespace interstice::voxel {
 
-/// The blocks of kBlock^3 cells that a lattice is made of; the last along an axis may be shorter.
+/// The blocks of edge^3 cells that a lattice is made of; the last along an axis may be shorter.
 struct BlockGrid {
   std::array<std::int64_t, 3> n{0, 0, 0};
 
-  explicit BlockGrid(const Lattice& lattice) {
-    for (int axis = 0; axis < 3; ++axis) n[axis] = (lattice.n[axis] + kBlock - 1) / kBlock;
+  explicit BlockGrid(const Lattice& lattice, std::int64_t edge = kBlock) {
+    for (int axis = 0; axis < 3; ++axis) n[axis] = (lattice.n[axis] + edge - 1) / edge;
   }
   std::uint64_t key(const std::array<std::int64_t, 3>& b) const {
     return static_cast<std::uint64_t>((b[0] * n[1] + b[1]) * n[2] + b[2]);
@@ -30,7 +30,8 @@ struct BlockGrid {
 };
 
 /// The cells of a block, clipped to the lattice.
-CellRange block_cells(const Lattice& lattice, const std::array<std::int64_t, 3>& block);
+CellRange block_cells(const Lattice& lattice, const std::array<std::int64_t, 3>& block,
+                      std::int64_t edge = kBlock);
 
 /// The sphere, moved by `image` times the lattice's own size.
 struct BinEntry {
@@ -44,6 +45,7 @@ struct Bins {
   std::vector<std::uint64_t> keys;
   std::vector<std::size_t> first;
   std::vector<BinEntry> entries;
+  CellRange reached;  // the cells within all spheres' bounding boxes, clipped to the lattice
 };
 
 /// The images of a sphere that reach into the lattice: image 0 alone along axes that are not periodic.
@@ -62,7 +64,9 @@ inline PlacedSphere place(const Lattice& lattice, const SpheresView& spheres, st
   return place(lattice, {spheres.x[s], spheres.y[s], spheres.z[s]}, spheres.radius[s]);
 }
 
-Bins bin_spheres(const SpheresView& spheres, const Lattice& lattice, const std::array<bool, 3>& periodic);
+/// Into blocks of edge^3 cells.
+Bins bin_spheres(const SpheresView& spheres, const Lattice& lattice, const std::array<bool, 3>& periodic,
+                 std::int64_t edge = kBlock);
 
 /// Throws InputError naming up to ten spheres whose position is not finite, whose radius is not finite and
 /// positive, whose density (where given) is not finite and positive, or that are larger than 64 periods of a

@@ -109,22 +109,6 @@ FieldSums sums_of(const Lattice& lattice, const Inside& inside, const std::vecto
   return sums;
 }
 
-// The cells of all blocks that hold spheres, as one range; empty without spheres.
-CellRange occupied_cells(const Lattice& lattice, const Bins& bins) {
-  const BlockGrid grid(lattice);
-  CellRange occupied;
-  bool first = true;
-  for (const std::uint64_t key : bins.keys) {
-    const CellRange cells = block_cells(lattice, grid.block(key));
-    for (int axis = 0; axis < 3; ++axis) {
-      occupied.lo[axis] = first ? cells.lo[axis] : std::min(occupied.lo[axis], cells.lo[axis]);
-      occupied.hi[axis] = first ? cells.hi[axis] : std::max(occupied.hi[axis], cells.hi[axis]);
-    }
-    first = false;
-  }
-  return occupied;
-}
-
 }  // namespace
 
 Field compute_field(const SpheresView& spheres, const Solids& solids, const FieldRequest& request) {
@@ -134,14 +118,13 @@ Field compute_field(const SpheresView& spheres, const Solids& solids, const Fiel
   const bool mass = spheres.density || request.density > 0, averaged = request.average_length > 0;
   const Solids walls = relative_to(solids, lattice);
   const std::vector<WallBlock> walled = wall_blocks(walls, lattice);
-  const Bins bins = bin_spheres(spheres, lattice, request.periodic);
+  const Bins bins = bin_spheres(spheres, lattice, request.periodic, kRegion);
 
   DenseShares dense;
   std::array<Window, 3> windows;
-  const CellRange occupied = occupied_cells(lattice, bins);
-  if (averaged && !occupied.empty()) {
+  if (averaged && !bins.reached.empty()) {
     windows = averaging_windows(lattice, request.average_length, request.periodic);
-    dense = dense_shares(lattice, occupied, windows, !walled.empty());
+    dense = dense_shares(lattice, bins.reached, windows, !walled.empty());
   }
   std::vector<BlockResult> blocks =
       accumulate({spheres, request, bins, walls, walled, mass, dense.range.empty() ? nullptr : &dense});
