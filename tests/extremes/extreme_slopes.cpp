@@ -137,9 +137,9 @@ TEST(Slope, EnergyBalanceClosesWithAnyFriction) {
 
 /// A large grain held between two walls, a small one in the groove between it and the left wall, both with
 /// friction: the largest speed over sqrt(g d) in 1e5 steps after settling, d that of the small one.
-double unrest(double ratio, const BackEnd& b) {
+double unrest(double ratio, double restitution, double step, const BackEnd& b) {
   const double r = 20e-6, big = ratio * r, gap = 1e-5;
-  Model m = open_model({8200, 1e8, 0.3}, {.restitution = 0.3, .friction = 0.6},
+  Model m = open_model({8200, 1e8, 0.3}, {.restitution = restitution, .friction = 0.6},
                        {.tangential = TangentialLaw::mindlin}, 10 * big);
   m.gravity = {0, 0, -9.81};
   m.walls = {{Plane{{0, 0, 0}, {0, 0, 1}}, 0},
@@ -150,7 +150,7 @@ double unrest(double ratio, const BackEnd& b) {
   const double overlap = std::pow(load / (4.0 / 3 * modulus * std::sqrt(big)), 2.0 / 3) + gap * big;
   const double light = std::sqrt(sphere_mass(r, 8200) / (2 * modulus * std::sqrt(r * 1e-4 * r)));
   const double heavy = std::sqrt(sphere_mass(big, 8200) / (2 * modulus * std::sqrt(big * overlap)));
-  Simulation sim(m, 0.05 * std::min(light, heavy), b.options);
+  Simulation sim(m, step * std::min(light, heavy), b.options);
   const double across = big - r, along = big + r;  // the small one touches the large one and the wall
   sim.add_grains(
       std::vector<NewGrain>{grain({0, 0, big * (1 - gap)}, big),
@@ -167,11 +167,25 @@ double unrest(double ratio, const BackEnd& b) {
 TEST(SizeRatio, ASmallGrainRestsInTheGrooveOfALargeOne) {
   // Vyas et al. (Comput. Phys. Commun. 310, 109524, 2025): velocities half a step late make a friction that
   // is not there, above a ratio of 3, and such a grain does not come to rest.
-  for (const double ratio : {2.0, 3.0, 10.0, 30.0, 100.0}) {
-    expect_small("size ratio", fmt::format("{:g}: a small grain in a groove, mu = 0.6, 1e5 steps", ratio),
-                 "at rest: fastest, of sqrt(g d)", 1e-6, 1e-6,
-                 [&](const BackEnd& b) { return unrest(ratio, b); });
+  for (const double restitution : {0.0, 0.3}) {
+    for (const double ratio : {2.0, 3.0, 10.0, 30.0, 100.0}) {
+      expect_small(
+          "size ratio",
+          fmt::format("{:g}: a small grain in a groove, mu = 0.6, e = {:g}, 1e5 steps", ratio, restitution),
+          "at rest: fastest, of sqrt(g d)", 1e-6, 1e-6,
+          [&](const BackEnd& b) { return unrest(ratio, restitution, 0.05, b); });
+    }
   }
+}
+
+// Waits for a step check that sees dashpots: at e = 0 and twice that step a grain jammed in the groove
+// vibrates for ever (0.1 sqrt(g d)). A dashpot on predicted velocities is stable for gamma dt/m < 1 (the root
+// -1 of the scheme); two tangential ones on the spin of a sphere have 5 gamma dt/m = 1.6 there, while
+// StepCheck::frequency, of springs alone, says 0.27.
+TEST(SizeRatio, DISABLED_AJammedPlasticGrainRestsAtACoarserStep) {
+  expect_small("size ratio", "100: a small grain jammed in a groove, mu = 0.6, e = 0, 0.1 sqrt(m/k)",
+               "at rest: fastest, of sqrt(g d)", 1e-6, 1e-6,
+               [&](const BackEnd& b) { return unrest(100, 0, 0.1, b); });
 }
 
 }  // namespace
