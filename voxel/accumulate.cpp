@@ -8,6 +8,7 @@
 #include <bit>
 #include <iterator>
 #include <limits>
+#include <optional>
 
 #include "voxel/methods.h"
 #include "voxel/small_spheres.h"
@@ -231,15 +232,31 @@ void fill_walls(const Accumulation& what, const CellRange& cells, bool full, dou
       for (std::int64_t k = 0; k < cells.size(2); ++k) shares[(i * kBlock + j) * kBlock + k] = *next++;
 }
 
-bool holds_solid(const CellRows& solid, const CellRange& cells) {
+/// What one number says of a whole range of cells: none, the same share in each, or neither.
+enum class Filling { none, uniform, mixed };
+
+Filling filling_of(const CellRows& solid, const CellRange& cells) {
   const std::int64_t z = cells.lo[2] - solid.cells().lo[2];
+  const double first = solid.row(cells.lo[0], cells.lo[1])[z];
   for (std::int64_t i = cells.lo[0]; i < cells.hi[0]; ++i)
     for (std::int64_t j = cells.lo[1]; j < cells.hi[1]; ++j) {
       const double* row = solid.row(i, j) + z;
       for (std::int64_t k = 0; k < cells.size(2); ++k)
-        if (row[k] != 0) return true;
+        if (row[k] != first) return Filling::mixed;
     }
-  return false;
+  return first == 0 ? Filling::none : Filling::uniform;
+}
+
+/// A block with the same share of solid in every cell, and no wall.
+void set_solid_tile(double share, BlockResult& result) {
+  result.solid_tile = true;
+  result.tile_share = static_cast<float>(share);
+  const auto cells = static_cast<double>(result.cells);
+  result.solid = cells * share;
+  result.written = cells * static_cast<double>(result.tile_share);
+  result.active = result.cells;
+  result.void_min = result.void_max = 1 - share;
+  result.negative = 1 - share < -1e-12 ? result.cells : 0;
 }
 
 void fill_dense_wall(const CellRange& cells, DenseShares& dense) {
@@ -254,7 +271,8 @@ void compute_block(const Accumulation& what, const std::array<std::int64_t, 3>& 
                    const Walled::Entry* wall, bool spheres, const Sums& sums,
                    std::vector<BlockResult>& results) {
   const CellRange cells = block_cells(what.request.lattice, block);
-  const bool solid = spheres && holds_solid(sums.solid, cells);
+  const Filling filling = spheres ? filling_of(sums.solid, cells) : Filling::none;
+  const bool solid = filling != Filling::none;
   if (!solid && !wall) return;
   BlockResult& result = results.emplace_back();
   result.block = block;
@@ -267,9 +285,42 @@ void compute_block(const Accumulation& what, const std::array<std::int64_t, 3>& 
     if (what.dense) fill_dense_wall(cells, *what.dense);
     return;
   }
+  if (filling == Filling::uniform && !wall && !what.dense && !what.mass && result.cells == kBlockCells) {
+    set_solid_tile(*(sums.solid.row(cells.lo[0], cells.lo[1]) + (cells.lo[2] - sums.solid.cells().lo[2])),
+                   result);
+    return;
+  }
   double shares[kBlockCells];
   if (wall) fill_walls(what, cells, wall->full, shares);
   finish_block(what, cells, wall ? shares : nullptr, sums, result);
+}
+
+/// How many spheres cover the whole region, if spheres that do so are all that reach into it; else nothing.
+std::optional<int> covering(const Accumulation& what, std::size_t bin, const CellRange& cells) {
+  const Lattice& lattice = what.request.lattice;
+  int covers = 0;
+  for (std::size_t e = what.bins.first[bin]; e < what.bins.first[bin + 1]; ++e, ++covers) {
+    const BinEntry& entry = what.bins.entries[e];
+    if (what.spheres.radius[entry.sphere] < static_cast<double>(kRegion / 2) * lattice.h.x) return {};
+    const PlacedSphere sphere = moved(place(lattice, what.spheres, entry.sphere), lattice, entry.image);
+    if (!covers_range(lattice, sphere, cells)) return {};
+  }
+  return covers;
+}
+
+/// A region that is filled throughout: tiles, without looking at its cells.
+std::vector<BlockResult> fill_region(const CellRange& cells, int covers) {
+  std::vector<BlockResult> results;
+  std::array<std::int64_t, 3> b;
+  for (b[0] = cells.lo[0] / kBlock; b[0] * kBlock < cells.hi[0]; ++b[0])
+    for (b[1] = cells.lo[1] / kBlock; b[1] * kBlock < cells.hi[1]; ++b[1])
+      for (b[2] = cells.lo[2] / kBlock; b[2] * kBlock < cells.hi[2]; ++b[2]) {
+        BlockResult& result = results.emplace_back();
+        result.block = b;
+        result.cells = kBlockCells;
+        set_solid_tile(covers, result);
+      }
+  return results;
 }
 
 std::vector<BlockResult> compute_region(const Accumulation& what, const Walled& walled, const Task& task,
@@ -277,6 +328,11 @@ std::vector<BlockResult> compute_region(const Accumulation& what, const Walled& 
   const Lattice& lattice = what.request.lattice;
   const std::array<std::int64_t, 3> region = BlockGrid(lattice, kRegion).block(task.key);
   const CellRange cells = block_cells(lattice, region, kRegion);
+  const bool tiles = what.request.method == Method::exact && !what.dense && !what.mass && task.bin != kNone &&
+                     task.first_wall == task.last_wall && cells.cells() == kRegion * kRegion * kRegion;
+  if (tiles) {
+    if (const auto covers = covering(what, task.bin, cells)) return fill_region(cells, *covers);
+  }
   sums.solid.reset(cells);
   if (what.mass) sums.mass.reset(cells);
   if (task.bin != kNone) add_spheres(what, task.bin, cells, sums);

@@ -24,7 +24,9 @@ inline constexpr std::int64_t kRegion = 4 * kBlock;
 /// What a block contributes. Sums are over its cells, in shares of a cell.
 struct BlockResult {
   std::array<std::int64_t, 3> block{0, 0, 0};
-  bool wall_tile = false;  // nothing but wall: a tile, no leaves
+  bool wall_tile = false;   // nothing but wall: a tile, no leaves
+  bool solid_tile = false;  // the same share of solid in every cell, no wall: a tile, no leaves
+  float tile_share = 0;     // that share
   double solid = 0, wall = 0, written = 0;
   double void_min = 1, void_max = 1;
   std::int64_t negative = 0;

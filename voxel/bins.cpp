@@ -6,6 +6,7 @@
 #include <string>
 
 #include "base/error.h"
+#include "base/parallel.h"
 #include "voxel/text.h"
 
 namespace interstice::voxel {
@@ -84,18 +85,10 @@ void group_by_key(std::vector<KeyedEntry>& keyed, std::int64_t blocks, Bins& bin
 
 }  // namespace
 
-CellRange block_cells(const Lattice& lattice, const std::array<std::int64_t, 3>& block, std::int64_t edge) {
-  CellRange cells;
-  for (int axis = 0; axis < 3; ++axis) {
-    cells.lo[axis] = block[axis] * edge;
-    cells.hi[axis] = std::min(cells.lo[axis] + edge, lattice.n[axis]);
-  }
-  return cells;
-}
-
 ImageRange images_of(const Lattice& lattice, const PlacedSphere& sphere,
                      const std::array<bool, 3>& periodic) {
   ImageRange images;
+  if (!periodic[0] && !periodic[1] && !periodic[2]) return images;
   const CellRange cells = bounding_cells(lattice, sphere);
   for (int axis = 0; axis < 3; ++axis) {
     if (!periodic[axis]) continue;
@@ -111,14 +104,28 @@ ImageRange images_of(const Lattice& lattice, const PlacedSphere& sphere,
 Bins bin_spheres(const SpheresView& spheres, const Lattice& lattice, const std::array<bool, 3>& periodic,
                  std::int64_t edge) {
   const BlockGrid grid(lattice, edge);
-  std::vector<KeyedEntry> keyed;
-  keyed.reserve(spheres.count * 2);
+  const Blocks parts{spheres.count, 8192};
+  struct Part {
+    std::vector<KeyedEntry> keyed;
+    CellRange reached;
+  };
+  std::vector<Part> found(parts.count());
+  for_each_block(parts, [&](std::size_t p, std::size_t begin, std::size_t end) {
+    Part& part = found[p];
+    part.keyed.reserve(2 * (end - begin));
+    for (std::size_t s = begin; s < end; ++s)
+      for_each_block_touched(lattice, grid, edge, place(lattice, spheres, s), periodic, part.reached,
+                             [&](std::uint64_t key, const std::array<std::int32_t, 3>& image) {
+                               part.keyed.push_back({key, {static_cast<std::uint32_t>(s), image}});
+                             });
+  });
   Bins bins;
-  for (std::size_t s = 0; s < spheres.count; ++s)
-    for_each_block_touched(lattice, grid, edge, place(lattice, spheres, s), periodic, bins.reached,
-                           [&](std::uint64_t key, const std::array<std::int32_t, 3>& image) {
-                             keyed.push_back({key, {static_cast<std::uint32_t>(s), image}});
-                           });
+  std::vector<KeyedEntry> keyed;
+  for (Part& part : found) {
+    keyed.insert(keyed.end(), part.keyed.begin(), part.keyed.end());
+    std::vector<KeyedEntry>().swap(part.keyed);
+    bins.reached = united(bins.reached, part.reached);
+  }
   group_by_key(keyed, grid.blocks(), bins);
   return bins;
 }

@@ -30,8 +30,15 @@ struct BlockGrid {
 };
 
 /// The cells of a block, clipped to the lattice.
-CellRange block_cells(const Lattice& lattice, const std::array<std::int64_t, 3>& block,
-                      std::int64_t edge = kBlock);
+inline CellRange block_cells(const Lattice& lattice, const std::array<std::int64_t, 3>& block,
+                             std::int64_t edge = kBlock) {
+  CellRange cells;
+  for (int axis = 0; axis < 3; ++axis) {
+    cells.lo[axis] = block[axis] * edge;
+    cells.hi[axis] = std::min(cells.lo[axis] + edge, lattice.n[axis]);
+  }
+  return cells;
+}
 
 /// The sphere, moved by `image` times the lattice's own size.
 struct BinEntry {

@@ -1,6 +1,7 @@
 #include "voxel/grids.h"
 
 #include <openvdb/openvdb.h>
+#include <openvdb/tools/Prune.h>
 #include <tbb/parallel_for.h>
 
 #include "voxel/metre_grid.h"
@@ -57,11 +58,18 @@ void fill_grids(const FieldRequest& request, bool walls, bool mass, std::vector<
   field.void_fraction = new_grid(request, "void_fraction", "1", 1.0f);
   if (walls) field.available_fraction = new_grid(request, "available_fraction", "1", 1.0f);
   if (mass) field.mass_density = new_grid(request, "mass_density", "kg/m^3", 0.0f);
+  bool tiles = false;
   for (BlockResult& block : blocks) {
+    const openvdb::Coord at(static_cast<int>(block.block[0] * kBlock),
+                            static_cast<int>(block.block[1] * kBlock),
+                            static_cast<int>(block.block[2] * kBlock));
+    tiles = tiles || block.solid_tile;
+    if (block.solid_tile) {
+      field.solid_fraction->tree().addTile(1, at, block.tile_share, true);
+      field.void_fraction->tree().addTile(1, at, 1 - block.tile_share, true);
+      continue;
+    }
     if (block.wall_tile) {
-      const openvdb::Coord at(static_cast<int>(block.block[0] * kBlock),
-                              static_cast<int>(block.block[1] * kBlock),
-                              static_cast<int>(block.block[2] * kBlock));
       field.void_fraction->tree().addTile(1, at, 0.0f, true);
       field.available_fraction->tree().addTile(1, at, 0.0f, true);
       continue;
@@ -71,6 +79,9 @@ void fill_grids(const FieldRequest& request, bool walls, bool mass, std::vector<
     if (walls) add_leaf(*field.available_fraction, block.available_leaf);
     if (mass) add_leaf(*field.mass_density, block.mass_leaf);
   }
+  if (!tiles) return;
+  openvdb::tools::prune(field.solid_fraction->tree());  // the inside of a large sphere: few tiles, large ones
+  openvdb::tools::prune(field.void_fraction->tree());
 }
 
 void fill_averaged_grids(const FieldRequest& request, const DenseShares& averages, Field& field) {

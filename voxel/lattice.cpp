@@ -28,15 +28,6 @@ double cells_over(double length, double voxel) {
 
 }  // namespace
 
-CellRange intersection(const CellRange& a, const CellRange& b) {
-  CellRange both;
-  for (int axis = 0; axis < 3; ++axis) {
-    both.lo[axis] = std::max(a.lo[axis], b.lo[axis]);
-    both.hi[axis] = std::min(a.hi[axis], b.hi[axis]);
-  }
-  return both;
-}
-
 Lattice cubic_lattice(const Box& box, double voxel) {
   if (!(std::isfinite(voxel) && voxel > 0))
     throw InputError("voxel edge is " + shown(voxel) + " m; it must be finite and positive");
@@ -68,10 +59,6 @@ void check_lattice(const Lattice& lattice) {
   }
   if (cells > kMaxCellsInAll)
     throw InputError("the lattice has more than 2^62 cells; choose a larger voxel or a smaller box");
-}
-
-std::int64_t floor_index(double value) {
-  return static_cast<std::int64_t>(std::floor(std::clamp(value, -0x1p60, 0x1p60)));
 }
 
 std::int64_t cell_along(const Lattice& lattice, int axis, double at) {

@@ -1,7 +1,9 @@
 // The cells that a field is computed on: an axis-aligned block of n.x * n.y * n.z cells.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 
 #include "base/shapes.h"
@@ -41,7 +43,14 @@ struct CellRange {
 };
 
 /// The cells that are in both.
-CellRange intersection(const CellRange& a, const CellRange& b);
+inline CellRange intersection(const CellRange& a, const CellRange& b) {
+  CellRange both;
+  for (int axis = 0; axis < 3; ++axis) {
+    both.lo[axis] = std::max(a.lo[axis], b.lo[axis]);
+    both.hi[axis] = std::min(a.hi[axis], b.hi[axis]);
+  }
+  return both;
+}
 
 /// All cells of a lattice.
 inline CellRange all_cells(const Lattice& lattice) { return {{0, 0, 0}, lattice.n}; }
@@ -56,7 +65,9 @@ Lattice cubic_lattice(const Box& box, double voxel);
 void check_lattice(const Lattice& lattice);
 
 /// floor(value) as an index, kept within +-2^60 so that no coordinate, however absurd, overflows.
-std::int64_t floor_index(double value);
+inline std::int64_t floor_index(double value) {
+  return static_cast<std::int64_t>(std::floor(std::clamp(value, -0x1p60, 0x1p60)));
+}
 
 /// Index of the cell along `axis` that holds the coordinate `at` [m]: on a face (within 1e-9 of a cell), the
 /// cell above it; on the lattice's upper face, its last cell. Throws InputError when `at` is outside the

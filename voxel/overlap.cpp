@@ -186,39 +186,6 @@ double one_box(const Planes& x, const Planes& y, const Planes& z, double radius)
 
 }  // namespace
 
-PlacedSphere place(const Lattice& lattice, const Vec3d& center, double radius) {
-  PlacedSphere sphere;
-  sphere.radius = radius;
-  const Vec3d local = center - lattice.lo;
-  for (int axis = 0; axis < 3; ++axis) {
-    sphere.cell[axis] = floor_index(local[axis] / lattice.h[axis]);
-    sphere.offset[axis] = std::fma(-static_cast<double>(sphere.cell[axis]), lattice.h[axis], local[axis]);
-  }
-  return sphere;
-}
-
-CellRange bounding_cells(const Lattice& lattice, const PlacedSphere& sphere) {
-  CellRange range;
-  for (int axis = 0; axis < 3; ++axis) {
-    const double h = lattice.h[axis], at = sphere.offset[axis];
-    range.lo[axis] = sphere.cell[axis] + floor_index((at - sphere.radius) / h);
-    range.hi[axis] = sphere.cell[axis] + floor_index((at + sphere.radius) / h) + 1;
-  }
-  return range;
-}
-
-bool touches(const Lattice& lattice, const PlacedSphere& sphere, const CellRange& range) {
-  double squared = 0;
-  for (int axis = 0; axis < 3; ++axis) {
-    const double h = lattice.h[axis], at = sphere.offset[axis];
-    const double below = static_cast<double>(range.lo[axis] - sphere.cell[axis]) * h - at;
-    const double above = at - static_cast<double>(range.hi[axis] - sphere.cell[axis]) * h;
-    const double distance = std::max({below, above, 0.0});
-    squared += distance * distance;
-  }
-  return squared < sphere.radius * sphere.radius;
-}
-
 double sphere_box_volume(const Vec3d& center, double radius, const Box& box) {
   const Vec3d lo = box.lo - center, hi = box.hi - center;
   return one_box(planes_of(lo.x / radius, hi.x / radius), planes_of(lo.y / radius, hi.y / radius),

@@ -44,13 +44,53 @@ struct PlacedSphere {
   double radius = 0;
 };
 
-PlacedSphere place(const Lattice& lattice, const Vec3d& center, double radius);
+inline PlacedSphere place(const Lattice& lattice, const Vec3d& center, double radius) {
+  PlacedSphere sphere;
+  sphere.radius = radius;
+  const Vec3d local = center - lattice.lo;
+  for (int axis = 0; axis < 3; ++axis) {
+    sphere.cell[axis] = floor_index(local[axis] / lattice.h[axis]);
+    sphere.offset[axis] = std::fma(-static_cast<double>(sphere.cell[axis]), lattice.h[axis], local[axis]);
+  }
+  return sphere;
+}
 
 /// Cells of the sphere's bounding box, not clipped to any lattice.
-CellRange bounding_cells(const Lattice& lattice, const PlacedSphere& sphere);
+inline CellRange bounding_cells(const Lattice& lattice, const PlacedSphere& sphere) {
+  CellRange range;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double h = lattice.h[axis], at = sphere.offset[axis];
+    range.lo[axis] = sphere.cell[axis] + floor_index((at - sphere.radius) / h);
+    range.hi[axis] = sphere.cell[axis] + floor_index((at + sphere.radius) / h) + 1;
+  }
+  return range;
+}
 
 /// True when some point of `range` is closer to the centre than the radius.
-bool touches(const Lattice& lattice, const PlacedSphere& sphere, const CellRange& range);
+inline bool touches(const Lattice& lattice, const PlacedSphere& sphere, const CellRange& range) {
+  double squared = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double h = lattice.h[axis], at = sphere.offset[axis];
+    const double below = static_cast<double>(range.lo[axis] - sphere.cell[axis]) * h - at;
+    const double above = at - static_cast<double>(range.hi[axis] - sphere.cell[axis]) * h;
+    const double distance = std::max({below, above, 0.0});
+    squared += distance * distance;
+  }
+  return squared < sphere.radius * sphere.radius;
+}
+
+/// Does the sphere fill all cells of the range?
+inline bool covers_range(const Lattice& lattice, const PlacedSphere& sphere, const CellRange& range) {
+  double squared = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double h = lattice.h[axis], at = sphere.offset[axis];
+    const double below = at - static_cast<double>(range.lo[axis] - sphere.cell[axis]) * h;
+    const double above = static_cast<double>(range.hi[axis] - sphere.cell[axis]) * h - at;
+    const double farthest = std::max(std::abs(below), std::abs(above));
+    squared += farthest * farthest;
+  }
+  return squared <= sphere.radius * sphere.radius;
+}
 
 /// Volume [m^3] of the sphere inside `box` [m]; edges may be infinite.
 double sphere_box_volume(const Vec3d& center, double radius, const Box& box);

@@ -250,6 +250,24 @@ TEST(ComputeField, AHugeSphereCutsTheBox) {
   EXPECT_LE(sums.void_max, 1);
 }
 
+TEST(ComputeField, TheInsideOfAGiantIsTiles) {
+  const double h = 1e-5, r = 150.3 * h, side = 310 * h;
+  const std::vector<double> x{0.5 * side + 0.3 * h}, y{0.5 * side}, z{0.5 * side}, radius{r};
+  FieldRequest request;
+  request.lattice = cubic_lattice({{0, 0, 0}, {side, side, side}}, h);
+  const Field field = compute_field({1, x.data(), y.data(), z.data(), radius.data(), nullptr}, {}, request);
+  EXPECT_NEAR(field.sums.solid_volume_field / (4.0 / 3 * std::numbers::pi * r * r * r), 1, 1e-12);
+  const auto& tree = field.solid_fraction->tree();
+  EXPECT_EQ(tree.getValue(openvdb::Coord(155, 155, 155)), 1.0f);
+  EXPECT_EQ(tree.getValue(openvdb::Coord(0, 0, 0)), 0.0f);
+  EXPECT_EQ(field.void_fraction->tree().getValue(openvdb::Coord(155, 155, 155)), 0.0f);
+  // Leaves stand on the surface only: 4 pi r^2 cells, an eighth of which fit along each edge of a leaf, and
+  // at most a few leaves thick.
+  const double surface_leaves = 4 * std::numbers::pi * 150.3 * 150.3 / 64;
+  EXPECT_LT(static_cast<double>(tree.leafCount()), 2.5 * surface_leaves);
+  EXPECT_GT(tree.activeTileCount(), 0u);
+}
+
 TEST(ComputeField, VoxelLargerThanTheBox) {
   const Spheres spheres = bed(50);
   const FieldRequest request = request_for(bed_box(), 1e-3);
