@@ -49,8 +49,23 @@ void Simulation::for_rows(const Body& body) const {
   }
 }
 
+/// The engine's own guard, whatever made the grain: nothing that is no number reaches a kernel.
+void Simulation::check_grain(const NewGrain& g) const {
+  const auto finite = [](const Vec3d& v) {
+    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+  };
+  const std::string who = "grain " + std::to_string(next_id_) + ": ";
+  if (!finite(g.position) || !finite(g.velocity) || !finite(g.spin))
+    throw InputError(who + "its place or motion is not finite; give finite numbers");
+  if (!(std::isfinite(g.radius) && g.radius > 0))
+    throw InputError(who + "its radius is not finite and positive; give a radius in metres");
+  if (g.material >= model_.materials.size() || !(model_.materials[g.material].density > 0))
+    throw InputError(who + "its material is unknown or has no density; give one of the model's materials");
+}
+
 void Simulation::add_grains(std::span<const NewGrain> grains) {
   for (const NewGrain& g : grains) {
+    check_grain(g);
     GrainRow row{};
     row.x = g.position.x, row.y = g.position.y, row.z = g.position.z;
     row.vx = g.velocity.x, row.vy = g.velocity.y, row.vz = g.velocity.z;
@@ -220,7 +235,7 @@ double Simulation::choose_skin() const {
   double radius_sum = 0, fastest = fastest_;
   for (const GrainRow& g : rows_) radius_sum += g.radius;
   for (const WallMotion& m : motion_of_wall_) fastest = std::max(fastest, norm(m.velocity));
-  const double diameter = rows_.empty() ? 1 : 2 * radius_sum / static_cast<double>(rows_.size());
+  const double diameter = rows_.empty() ? 0 : 2 * radius_sum / static_cast<double>(rows_.size());
   return std::clamp(120 * fastest * dt_, 0.03 * diameter, 0.3 * diameter);
 }
 

@@ -40,6 +40,7 @@ class Simulation {
   /// later, when the grains are known).
   Simulation(Model model, double time_step, const SimulationOptions& options = {});
 
+  /// Throws InputError for a grain whose numbers are not finite or whose radius is not positive.
   void add_grains(std::span<const NewGrain> grains);
   /// From the present time on [m/s].
   void set_wall_velocity(std::size_t wall, const Vec3d& velocity);
@@ -95,6 +96,7 @@ class Simulation {
     std::int64_t broken = -1;  // id of a grain whose motion is no longer sane
   };
 
+  void check_grain(const NewGrain& grain) const;
   void place_walls();
   double wall_travel() const;
   void begin_step();
@@ -114,6 +116,7 @@ class Simulation {
   void evaluate_pairs();
   void finish_row(const StepView& view, std::size_t i);
   void count_inserted_contacts();
+  double inserted_on_wall(const GrainRow& grain, const WallContact& contact) const;
   void add_heat(std::size_t i, const WallTotals& walls);
   void note_leaver(std::size_t i);
   template <class Body>

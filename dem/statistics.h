@@ -40,6 +40,9 @@ struct StepCheck {
   double frequency = 0;  // dt times a bound of the highest frequency of the contact network (Gershgorin); the
                          // integration is stable below 2
   std::int64_t frequency_grain = -1;  // the grain whose contacts give it
+  double damping = 0;  // dt times a bound of the fastest decay that dashpots ask for; sound below 1: beyond,
+                       // a grain among many contacts may vibrate on
+  std::int64_t damping_grain = -1;
 };
 
 ContactStatistics contact_statistics(const Simulation& simulation);

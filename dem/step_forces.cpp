@@ -2,6 +2,7 @@
 // contacts did and completes its velocities.
 #include "base/parallel.h"
 #include "dem/simulation.h"
+#include "dem/wall_distance.h"
 
 namespace interstice::dem {
 namespace {
@@ -84,11 +85,23 @@ void Simulation::add_heat(std::size_t i, const WallTotals& walls) {
   e.wall_power = walls.power;
 }
 
-/// A grain that is put into contact brings elastic energy along. Counted after its first step, when contacts
-/// are known.
+/// The elastic energy of a grain that overlaps a wall when it is inserted [J].
+double Simulation::inserted_on_wall(const GrainRow& g, const WallContact& contact) const {
+  const bool overlap = wall_distance(walls_[contact.wall], g.position()).distance < g.radius;
+  return overlap ? stored_in_wall_contact(*this, g, contact).normal : 0;
+}
+
+/// A grain that is put into contact brings elastic energy along. Counted in its first step, when contacts are
+/// known.
 void Simulation::count_inserted_contacts() {
   if (counted_ids_ == next_id_) return;
   for (std::size_t i = 0; i < rows_.size(); ++i) {
+    if (rows_[i].id >= counted_ids_) {
+      for (WallContact w : wall_contacts_.of(i)) {
+        w.state = ContactState::touching;  // walls are evaluated later in the step
+        energies_[static_cast<std::size_t>(rows_[i].id)].inserted += inserted_on_wall(rows_[i], w);
+      }
+    }
     for (const Adjacent& e : pair_contacts_.of(i)) {
       const bool fresh = rows_[i].id >= counted_ids_ || rows_[e.slot].id >= counted_ids_;
       if (fresh && !e.second) {

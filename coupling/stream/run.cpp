@@ -33,6 +33,7 @@ constexpr double kDefaultCheckpointSeconds = 60;
 constexpr double kPollSeconds = 0.2;
 // dt over sqrt(m/k): 0.2 is 0.05 of a collision time, 0.8 is 0.2 of it (docs/PHYSICS.md).
 constexpr double kWarnRatio = 0.2, kRefuseRatio = 0.8;
+constexpr double kWarnDamping = 1;
 constexpr double kRefuseFrequency = 2;  // velocity Verlet: stable where omega dt < 2
 
 class Run {
@@ -268,8 +269,15 @@ void Run::guard() {
                     "(1/omega): the integration is stable below 2; use a smaller [time] step",
                     where, check.frequency, check.frequency_grain));
   }
-  if (check.ratio > kWarnRatio && !warned_ && options_.warn) {
+  if (warned_ || !options_.warn) return;
+  if (check.ratio > kWarnRatio) {
     options_.warn(contact + "; above 0.2 the restitution is wrong by percents");
+    warned_ = true;
+  } else if (check.damping > kWarnDamping) {
+    options_.warn(
+        fmt::format("{} {:.2f} of the time in which the dashpots of its contacts stop grain {}; above 1 "
+                    "it may vibrate on: a smaller [time] step lets it rest",
+                    where, check.damping, check.damping_grain));
     warned_ = true;
   }
 }

@@ -138,7 +138,8 @@ INTERSTICE_HD inline ContactForce<T> evaluate_contact(const Laws& laws, const Co
 
   const T rolling_limit = c.rolling_friction * abs_of(normal.load) * k.effective_radius;
   if (laws.rolling == RollingLaw::cdt) {
-    out.rolling_torque = cdt_torque(k.relative_spin, k.normal, rolling_limit);
+    out.rolling_torque =
+        cdt_torque(k.relative_spin, k.normal, rolling_limit, k.effective_mass, k.effective_radius, step.dt);
     out.heat.rolling = -step.dt * dot(out.rolling_torque, k.relative_spin);
   } else if (laws.rolling == RollingLaw::epsd2) {
     const auto r = epsd2_torque(memory.rolling, k.normal, k.relative_spin, step.dt,

@@ -177,13 +177,19 @@ TEST(Slider, NeverReversesTheSlipInAStep) {
 
 TEST(Cdt, TorqueIsConstantOpposesRollingAndLeavesTwistingAlone) {
   const Vec3d n{0, 0, 1};
-  const double limit = 0.01 * 3 * 5e-6;
-  const Vec3d slow = cdt_torque<double>({0, 2, 0}, n, limit),
-              fast = cdt_torque<double>({0, 200, 0}, n, limit);
+  const double limit = 0.01 * 3 * 5e-6, mass = 1e-3, radius = 5e-6, dt = 1e-9;
+  const Vec3d slow = cdt_torque<double>({0, 20, 0}, n, limit, mass, radius, dt),
+              fast = cdt_torque<double>({0, 200, 0}, n, limit, mass, radius, dt);
   EXPECT_NEAR(slow.y, -limit, 1e-22);
   EXPECT_NEAR(fast.y, slow.y, 1e-22);
-  EXPECT_EQ(norm(cdt_torque<double>({0, 0, 9}, n, limit)), 0);
-  EXPECT_EQ(norm(cdt_torque<double>({0, 0, 0}, n, limit)), 0);
+  EXPECT_EQ(norm(cdt_torque<double>({0, 0, 9}, n, limit, mass, radius, dt)), 0);
+  EXPECT_EQ(norm(cdt_torque<double>({0, 0, 0}, n, limit, mass, radius, dt)), 0);
+}
+
+TEST(Cdt, NeverReversesTheSpinOfASphereOnAWall) {
+  const double mass = 1e-9, radius = 2e-5, dt = 1e-6, spin = 3;
+  const double torque = cdt_torque<double>({0, spin, 0}, {0, 0, 1}, 1e3, mass, radius, dt).y;
+  EXPECT_NEAR(torque * dt / (0.4 * mass * radius * radius), -kCdtShare * spin, 1e-12);
 }
 
 TEST(Epsd2, IsASpringUpToTheLimitAndIgnoresTwisting) {

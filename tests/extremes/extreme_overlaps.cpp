@@ -183,8 +183,7 @@ TEST(Overlap, CohesionBeyondTheSpringCollapses) {
                });
 }
 
-// Waits for the energy of contacts with walls to be counted as inserted (dem/step_forces.cpp).
-TEST(Energy, DISABLED_OfAGrainPutIntoAWallIsAccountedFor) {
+TEST(Energy, OfAGrainPutIntoAWallIsAccountedFor) {
   expect_small("initial overlap with a wall", "energies kept, 0.5 radii deep",
                "residual of the balance (of the overlap's energy)", 0.01, 0.01, [](const BackEnd& b) {
                  Model m = open_model(kSteel, {.restitution = 1}, {}, 1);

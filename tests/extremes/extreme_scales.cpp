@@ -133,8 +133,7 @@ void simulate_nothing(bool periodic) {
 }
 
 TEST(Nothing, IsSimulatedWithoutFuss) { simulate_nothing(false); }
-// Waits for Simulation::choose_skin to do without a diameter of 1 m where there are no grains.
-TEST(Nothing, DISABLED_IsSimulatedInAPeriodicBoxWithoutFuss) { simulate_nothing(true); }
+TEST(Nothing, IsSimulatedInAPeriodicBoxWithoutFuss) { simulate_nothing(true); }
 
 /// What happened when `act` was done: the error's words, or nothing.
 std::string refusal(const std::function<void()>& act) {

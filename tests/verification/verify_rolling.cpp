@@ -189,18 +189,20 @@ double spin_at_rest(RollingLaw law, double end, double step, const BackEnd& b) {
   return std::sqrt(sum / count);
 }
 
-TEST_P(Rolling, ConstantTorqueNeverRests) {
+TEST_P(Rolling, ConstantTorqueCreepsWhereTheSpringRests) {
   const double mass = mass_of(kRadius, kGlass);
-  // The spin that the torque makes in one step, which it then turns against.
+  // The spin that the torque makes in one step, which it would then turn against.
   const double kick = 0.2 * mass * kGravity * kRadius / (0.4 * mass * kRadius * kRadius);
+  // Near rest the torque takes kCdtShare of the spin a step: it balances the slope's at this spin.
+  const double creep = std::sin(std::atan(0.1)) / (kCdtShare * 0.2);
   const Reference r{"Sphere at rest on a slope: rms spin over the spin of one step's torque",
-                    "Ai et al. 2011: model A oscillates from step to step, model C comes to rest"};
+                    "Ai et al. 2011: model A never rests (here it creeps: derived), model C does"};
   for (const double step : {1e-6, 2e-6}) {
     const std::string dt = step > 1.5e-6 ? ", dt 2 us" : ", dt 1 us";
-    expect_between(r, GetParam().row("cdt after 20 ms" + dt),
-                   spin_at_rest(RollingLaw::cdt, 0.02, step, GetParam()) / (kick * step), 0.1, 2);
-    expect_between(r, GetParam().row("cdt after 100 ms" + dt),
-                   spin_at_rest(RollingLaw::cdt, 0.1, step, GetParam()) / (kick * step), 0.1, 2);
+    for (const double end : {0.02, 0.1}) {
+      expect_ratio(r, GetParam().row(fmt::format("cdt after {:g} ms{}", 1e3 * end, dt)),
+                   spin_at_rest(RollingLaw::cdt, end, step, GetParam()) / (kick * step), creep, 2e-3);
+    }
     expect_between(r, GetParam().row("epsd2 after 100 ms" + dt),
                    spin_at_rest(RollingLaw::epsd2, 0.1, step, GetParam()) / (kick * step), 0, 0.1);
   }
