@@ -15,6 +15,17 @@ std::size_t bytes_of(const std::vector<T>& v) {
   return v.capacity() * sizeof(T);
 }
 
+/// Resizes without the room to double that vectors keep: lists change by a few percent from one to the next.
+template <class T>
+void resize_tightly(std::vector<T>& v, std::size_t n) {
+  if (n > v.capacity() || n < v.capacity() / 2) {
+    v.clear();
+    v.shrink_to_fit();
+    v.reserve(n + n / 16);
+  }
+  v.resize(n);
+}
+
 }  // namespace
 
 void PairContacts::replace(std::vector<PairRef> new_pairs, const std::vector<GrainRow>& rows,
@@ -40,7 +51,7 @@ void PairContacts::replace(std::vector<PairRef> new_pairs, const std::vector<Gra
   state = std::move(new_state);
   sliding = std::move(new_sliding);
   rolling = std::move(new_rolling);
-  results.resize(pairs.size());
+  resize_tightly(results, pairs.size());
   if (kept_.heat) heat.assign(pairs.size(), {});
   build_adjacency(rows);
 }
@@ -59,8 +70,8 @@ void PairContacts::build_adjacency(const std::vector<GrainRow>& rows) {
     ++first_[p.b + 1];
   }
   for (std::size_t s = 1; s < first_.size(); ++s) first_[s] += first_[s - 1];
-  adjacent_.resize(2 * pairs.size());
-  partner_id_.resize(2 * pairs.size());
+  resize_tightly(adjacent_, 2 * pairs.size());
+  resize_tightly(partner_id_, 2 * pairs.size());
   std::vector<std::uint32_t> next(first_.begin(), first_.end() - 1);
   for (std::uint32_t k = 0; k < pairs.size(); ++k) {
     adjacent_[next[pairs[k].a]++] = {k, pairs[k].b, 0};
