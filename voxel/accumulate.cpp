@@ -81,9 +81,9 @@ void add_waiting(const Lattice& lattice, bool mass, Sums& sums) {
   sums.densities.clear();
 }
 
-/// Any method, any size: leaf by leaf.
-void add_by_blocks(const FieldRequest& request, const PlacedSphere& sphere, const CellRange& touched,
-                   const double* density, Sums& sums) {
+/// Any method, any size: leaf by leaf. `fill(cells, fractions)` gives the shares of some cells.
+template <class Fill>
+void add_by_blocks(const CellRange& touched, const double* density, Sums& sums, const Fill& fill) {
   double fractions[kBlockCells];
   std::array<std::int64_t, 3> at;
   const auto from = [](std::int64_t cell) { return cell / kBlock * kBlock; };
@@ -91,8 +91,7 @@ void add_by_blocks(const FieldRequest& request, const PlacedSphere& sphere, cons
     for (at[1] = from(touched.lo[1]); at[1] < touched.hi[1]; at[1] += kBlock)
       for (at[2] = from(touched.lo[2]); at[2] < touched.hi[2]; at[2] += kBlock) {
         const CellRange cells = intersection(touched, {at, {at[0] + kBlock, at[1] + kBlock, at[2] + kBlock}});
-        if (request.method != Method::centre && !touches(request.lattice, sphere, cells)) continue;
-        method_fractions(request, sphere, cells, fractions);
+        if (!fill(cells, fractions)) continue;
         const double* next = fractions;
         const auto nz = cells.size(2);
         for (std::int64_t i = cells.lo[0]; i < cells.hi[0]; ++i)
@@ -104,6 +103,25 @@ void add_by_blocks(const FieldRequest& request, const PlacedSphere& sphere, cons
             for (std::int64_t k = 0; k < nz; ++k) mass[k] += *density * next[k];
           }
       }
+}
+
+void add_sphere(const FieldRequest& request, const PlacedSphere& sphere, const CellRange& touched,
+                const double* density, Sums& sums) {
+  add_by_blocks(touched, density, sums, [&](const CellRange& cells, double* fractions) {
+    if (request.method != Method::centre && !touches(request.lattice, sphere, cells)) return false;
+    method_fractions(request, sphere, cells, fractions);
+    return true;
+  });
+}
+
+void add_kernel(const Lattice& lattice, const PlacedSphere& sphere, const KernelSpread& kernel, double scale,
+                const CellRange& cells, const double* density, Sums& sums) {
+  const CellRange touched = intersection(kernel_cells(lattice, sphere, kernel.length), cells);
+  if (touched.empty()) return;
+  add_by_blocks(touched, density, sums, [&](const CellRange& block, double* fractions) {
+    kernel_fractions(lattice, sphere, kernel, scale, block, fractions);
+    return true;
+  });
 }
 
 void add_spheres(const Accumulation& what, std::size_t bin, const CellRange& cells, Sums& sums) {
@@ -121,7 +139,12 @@ void add_spheres(const Accumulation& what, std::size_t bin, const CellRange& cel
       continue;
     }
     add_waiting(lattice, what.mass, sums);  // spheres are added in ascending order
-    add_by_blocks(what.request, sphere, intersection(bounding, cells), what.mass ? &density : nullptr, sums);
+    const double* weight = what.mass ? &density : nullptr;
+    const double scale = what.kernel ? what.kernel->scale[entry.sphere] : 0;
+    if (scale > 0)
+      add_kernel(lattice, sphere, *what.kernel, scale, cells, weight, sums);
+    else
+      add_sphere(what.request, sphere, intersection(bounding, cells), weight, sums);
   }
   add_waiting(lattice, what.mass, sums);
 }
@@ -266,10 +289,40 @@ void fill_dense_wall(const CellRange& cells, DenseShares& dense) {
       for (std::int64_t k = inside.lo[2]; k < inside.hi[2]; ++k) dense.available[dense.index(i, j, k)] = 0;
 }
 
+/// Takes off what is counted more than once where spheres overlap.
+void take_off_overlaps(const Overlaps& overlaps, std::uint64_t region, bool mass, Sums& sums) {
+  const auto at = [](CellRows& rows, const std::array<std::int64_t, 3>& cell) -> double& {
+    return rows.row(cell[0], cell[1])[cell[2] - rows.cells().lo[2]];
+  };
+  const OverlapRange range = overlaps_in(overlaps, region);
+  for (const CellOverlap* cell = range.first; cell != range.last; ++cell) {
+    at(sums.solid, cell->cell) -= cell->share;
+    if (mass) at(sums.mass, cell->cell) -= cell->mass;
+  }
+}
+
+/// Deletes what solid leaves less void than `least` of what walls leave. Returns how much, in cells.
+double delete_solid(double least, const CellRange& cells, const double* walls, bool mass, Sums& sums) {
+  double deleted = 0;
+  const std::int64_t z = cells.lo[2] - sums.solid.cells().lo[2];
+  for (std::int64_t i = cells.lo[0]; i < cells.hi[0]; ++i)
+    for (std::int64_t j = cells.lo[1]; j < cells.hi[1]; ++j) {
+      const std::int64_t row = ((i - cells.lo[0]) * kBlock + (j - cells.lo[1])) * kBlock;
+      double* solid = sums.solid.row(i, j) + z;
+      for (std::int64_t k = 0; k < cells.size(2); ++k) {
+        const double most = (1 - least) * (walls ? 1 - walls[row + k] : 1.0);
+        if (solid[k] <= most) continue;
+        deleted += solid[k] - most;
+        if (mass) sums.mass.row(i, j)[z + k] *= most / solid[k];
+        solid[k] = most;
+      }
+    }
+  return deleted;
+}
+
 /// One block of a region whose cells are summed. Nothing when it is empty.
 void compute_block(const Accumulation& what, const std::array<std::int64_t, 3>& block,
-                   const Walled::Entry* wall, bool spheres, const Sums& sums,
-                   std::vector<BlockResult>& results) {
+                   const Walled::Entry* wall, bool spheres, Sums& sums, std::vector<BlockResult>& results) {
   const CellRange cells = block_cells(what.request.lattice, block);
   const Filling filling = spheres ? filling_of(sums.solid, cells) : Filling::none;
   const bool solid = filling != Filling::none;
@@ -285,13 +338,15 @@ void compute_block(const Accumulation& what, const std::array<std::int64_t, 3>& 
     if (what.dense) fill_dense_wall(cells, *what.dense);
     return;
   }
+  double shares[kBlockCells];
+  if (wall) fill_walls(what, cells, wall->full, shares);
+  if (what.request.least_void > 0)
+    result.deleted = delete_solid(what.request.least_void, cells, wall ? shares : nullptr, what.mass, sums);
   if (filling == Filling::uniform && !wall && !what.dense && !what.mass && result.cells == kBlockCells) {
     set_solid_tile(*(sums.solid.row(cells.lo[0], cells.lo[1]) + (cells.lo[2] - sums.solid.cells().lo[2])),
                    result);
     return;
   }
-  double shares[kBlockCells];
-  if (wall) fill_walls(what, cells, wall->full, shares);
   finish_block(what, cells, wall ? shares : nullptr, sums, result);
 }
 
@@ -328,14 +383,16 @@ std::vector<BlockResult> compute_region(const Accumulation& what, const Walled& 
   const Lattice& lattice = what.request.lattice;
   const std::array<std::int64_t, 3> region = BlockGrid(lattice, kRegion).block(task.key);
   const CellRange cells = block_cells(lattice, region, kRegion);
-  const bool tiles = what.request.method == Method::exact && !what.dense && !what.mass && task.bin != kNone &&
-                     task.first_wall == task.last_wall && cells.cells() == kRegion * kRegion * kRegion;
+  const bool tiles = what.request.method == Method::exact && !what.overlaps && !what.dense && !what.mass &&
+                     task.bin != kNone && task.first_wall == task.last_wall &&
+                     cells.cells() == kRegion * kRegion * kRegion;
   if (tiles) {
     if (const auto covers = covering(what, task.bin, cells)) return fill_region(cells, *covers);
   }
   sums.solid.reset(cells);
   if (what.mass) sums.mass.reset(cells);
   if (task.bin != kNone) add_spheres(what, task.bin, cells, sums);
+  if (what.overlaps) take_off_overlaps(*what.overlaps, task.key, what.mass, sums);
   const BlockGrid grid(lattice);
   std::vector<BlockResult> results;
   std::size_t wall = task.first_wall;

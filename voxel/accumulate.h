@@ -11,6 +11,8 @@
 #include "voxel/average.h"
 #include "voxel/bins.h"
 #include "voxel/field.h"
+#include "voxel/methods_kernel.h"
+#include "voxel/union_overlaps.h"
 #include "voxel/walls.h"
 
 namespace interstice::voxel {
@@ -28,6 +30,7 @@ struct BlockResult {
   bool solid_tile = false;  // the same share of solid in every cell, no wall: a tile, no leaves
   float tile_share = 0;     // that share
   double solid = 0, wall = 0, written = 0;
+  double deleted = 0;  // by FieldRequest::least_void
   double void_min = 1, void_max = 1;
   std::int64_t negative = 0;
   std::int64_t cells = 0, active = 0;  // active: cells with something in them
@@ -43,6 +46,8 @@ struct Accumulation {
   const std::vector<WallBlock>& wall_blocks;  // by blocks
   bool mass = false;                          // whether to fill mass densities
   DenseShares* dense = nullptr;               // where averages are taken from, or null
+  const KernelSpread* kernel = nullptr;       // for Method::kernel; bins are then by its reach
+  const Overlaps* overlaps = nullptr;         // for Overlap::united
 };
 
 /// One result per block that has something in it, in an order that depends on the lattice alone. Every voxel

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 #include "base/error.h"
 #include "base/parallel.h"
@@ -11,7 +12,10 @@
 #include "voxel/average.h"
 #include "voxel/bins.h"
 #include "voxel/grids.h"
+#include "voxel/methods.h"
+#include "voxel/methods_kernel.h"
 #include "voxel/sum.h"
+#include "voxel/union_overlaps.h"
 #include "voxel/walls.h"
 
 namespace interstice::voxel {
@@ -23,9 +27,7 @@ void check(const SpheresView& spheres, const FieldRequest& request) {
   check_lattice(lattice);
   if (lattice.h.x != lattice.h.y || lattice.h.x != lattice.h.z)
     throw InputError("fields need cubic cells; the lattice's edges differ");
-  if (request.method == Method::subsample && (request.subsample < 1 || request.subsample > 1000))
-    throw InputError("subsample is " + std::to_string(request.subsample) +
-                     " points per edge; 1 to 1000 are possible");
+  check_method(request);
   if (!(std::isfinite(request.average_length) && request.average_length >= 0))
     throw InputError("the averaging length must be finite and not negative");
   if (!(std::isfinite(request.density) && request.density >= 0))
@@ -37,6 +39,7 @@ void check(const SpheresView& spheres, const FieldRequest& request) {
 struct Inside {
   std::int64_t particles = 0;
   CompensatedSum volume, mass;
+  std::vector<double> each;  // [m^3] per sphere, where asked for
 };
 
 double clipped_volume(const Lattice& lattice, const PlacedSphere& sphere) {
@@ -48,9 +51,11 @@ double clipped_volume(const Lattice& lattice, const PlacedSphere& sphere) {
   return 4 * std::numbers::pi / 3 * (sphere.radius * sphere.radius * sphere.radius);
 }
 
-Inside spheres_inside(const SpheresView& spheres, const FieldRequest& request) {
+Inside spheres_inside(const SpheresView& spheres, const FieldRequest& request, bool each) {
   const Lattice& lattice = request.lattice;
   const Blocks blocks{spheres.count, 4096};
+  Inside all;
+  if (each) all.each.resize(spheres.count);
   std::vector<Inside> partial(blocks.count());
   for_each_block(blocks, [&](std::size_t b, std::size_t begin, std::size_t end) {
     for (std::size_t s = begin; s < end; ++s) {
@@ -66,12 +71,12 @@ Inside spheres_inside(const SpheresView& spheres, const FieldRequest& request) {
             volume += clipped_volume(lattice, image);
             touching = touching || touches(lattice, image, all_cells(lattice));
           }
+      if (each) all.each[s] = volume;
       partial[b].particles += touching;
       partial[b].volume.add(volume);
       partial[b].mass.add(volume * (spheres.density ? spheres.density[s] : request.density));
     }
   });
-  Inside all;
   for (const Inside& part : partial) {
     all.particles += part.particles;
     all.volume.add(part.volume.value());
@@ -85,13 +90,14 @@ FieldSums sums_of(const Lattice& lattice, const Inside& inside, const std::vecto
   sums.particles = inside.particles;
   sums.solid_volume_particles = inside.volume.value();
   sums.mass = inside.mass.value();
-  CompensatedSum solid, wall, written;
+  CompensatedSum solid, wall, written, deleted;
   std::int64_t covered = 0;
   bool first = true;
   for (const BlockResult& block : blocks) {
     solid.add(block.solid);
     wall.add(block.wall);
     written.add(block.written);
+    deleted.add(block.deleted);
     covered += block.cells;
     sums.negative_voxels += block.negative;
     sums.void_min = first ? block.void_min : std::min(sums.void_min, block.void_min);
@@ -105,8 +111,19 @@ FieldSums sums_of(const Lattice& lattice, const Inside& inside, const std::vecto
   const double cell = lattice.cell_volume();
   sums.solid_volume_field = solid.value() * cell;
   sums.written_solid_volume = written.value() * cell;
+  sums.deleted_volume = deleted.value() * cell;
   sums.available_volume = (static_cast<double>(lattice.cells()) - wall.value()) * cell;
   return sums;
+}
+
+/// Takes overlaps out of what the spheres bring in, and hidden spheres out of the bins. [m^3] in all.
+double leave_out_hidden(const Overlaps& overlaps, const std::vector<double>& inside, Bins& bins) {
+  CompensatedSum volume;
+  volume.add(overlaps.volume);
+  for (std::size_t s = 0; s < overlaps.hidden.size(); ++s)
+    if (overlaps.hidden[s]) volume.add(inside[s]);
+  drop_hidden(overlaps, bins);
+  return volume.value();
 }
 
 }  // namespace
@@ -116,9 +133,24 @@ Field compute_field(const SpheresView& spheres, const Solids& solids, const Fiel
   check(spheres, request);
   const Lattice& lattice = request.lattice;
   const bool mass = spheres.density || request.density > 0, averaged = request.average_length > 0;
+  const bool united = request.overlap == Overlap::united;
   const Solids walls = relative_to(solids, lattice);
   const std::vector<WallBlock> walled = wall_blocks(walls, lattice);
-  const Bins bins = bin_spheres(spheres, lattice, request.periodic, kRegion);
+  const Inside inside = spheres_inside(spheres, request, united || request.method == Method::kernel);
+
+  std::optional<KernelSpread> kernel;
+  SpheresView binned = spheres;
+  if (request.method == Method::kernel) {
+    kernel = kernel_spread(spheres, inside.each, request, walls, walled);
+    binned.radius = kernel->reach.data();
+  }
+  Bins bins = bin_spheres(binned, lattice, request.periodic, kRegion);
+  std::optional<Overlaps> overlaps;
+  double overlap_volume = 0;
+  if (united) {
+    overlaps = find_overlaps(spheres, lattice, bins, kRegion, request.density);
+    overlap_volume = leave_out_hidden(*overlaps, inside.each, bins);
+  }
 
   DenseShares dense;
   std::array<Window, 3> windows;
@@ -127,11 +159,13 @@ Field compute_field(const SpheresView& spheres, const Solids& solids, const Fiel
     dense = dense_shares(lattice, bins.reached, windows, !walled.empty());
   }
   std::vector<BlockResult> blocks =
-      accumulate({spheres, request, bins, walls, walled, mass, dense.range.empty() ? nullptr : &dense});
+      accumulate({spheres, request, bins, walls, walled, mass, dense.range.empty() ? nullptr : &dense,
+                  kernel ? &*kernel : nullptr, overlaps ? &*overlaps : nullptr});
 
   Field field;
   field.lattice = lattice;
-  field.sums = sums_of(lattice, spheres_inside(spheres, request), blocks);
+  field.sums = sums_of(lattice, inside, blocks);
+  field.sums.overlap_volume = overlap_volume;
   fill_grids(request, !solids.empty(), mass, blocks, field);
   if (averaged) {
     if (!dense.range.empty()) average(lattice, windows, dense);

@@ -13,13 +13,20 @@
 
 namespace interstice::voxel {
 
-enum class Method { exact, centre, subsample };
+enum class Method { exact, centre, subsample, divided, kernel };
+
+/// How places count that several spheres share: once for each, or once (union_overlaps.h).
+enum class Overlap { sum, united };
 
 struct FieldRequest {
   Lattice lattice;
   std::array<bool, 3> periodic{false, false, false};  // images of grains across the lattice box's faces
   Method method = Method::exact;
-  int subsample = 0;          // points per voxel edge, for Method::subsample
+  int subsample = 0;      // points per voxel edge, for Method::subsample
+  double least_void = 0;  // Method::divided: solid that would leave less void than this share of what walls
+                          // leave of a voxel is deleted, as CFD couplings do; 0: kept
+  double kernel_length = 0;  // [m] how far Method::kernel reaches from a centre along each axis
+  Overlap overlap = Overlap::sum;
   double average_length = 0;  // edge of the averaging cube [m]; 0: no averaged grids
   double density = 0;         // [kg/m^3] used where spheres carry none; 0: no mass density
 };
@@ -34,6 +41,8 @@ struct FieldSums {
   double void_min = 0, void_max = 0;  // over all voxels
   std::int64_t negative_voxels = 0;   // voxels with void fraction < -1e-12
   double written_solid_volume = 0;    // [m^3] summed over the float grid
+  double overlap_volume = 0;          // [m^3] taken off where spheres overlap, for Overlap::united
+  double deleted_volume = 0;          // [m^3] deleted by FieldRequest::least_void
 };
 
 /// A computed field. `void_fraction = available - solid`, per cell volume. Grids have their origin voxel

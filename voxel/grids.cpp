@@ -4,6 +4,7 @@
 #include <openvdb/tools/Prune.h>
 #include <tbb/parallel_for.h>
 
+#include "voxel/methods.h"
 #include "voxel/metre_grid.h"
 #include "voxel/text.h"
 
@@ -16,18 +17,6 @@ std::string box_text(const Box& box) {
   for (int axis = 0; axis < 3; ++axis)
     text += (axis ? "," : "") + shown(box.lo[axis], 17) + "," + shown(box.hi[axis], 17);
   return text;
-}
-
-std::string method_text(const FieldRequest& request) {
-  switch (request.method) {
-    case Method::exact:
-      return "exact";
-    case Method::centre:
-      return "centre";
-    case Method::subsample:
-      return "subsample:" + std::to_string(request.subsample);
-  }
-  return {};
 }
 
 void add_leaf(openvdb::FloatGrid& grid, std::unique_ptr<Leaf>& leaf) {
@@ -47,7 +36,7 @@ openvdb::FloatGrid::Ptr new_grid(const FieldRequest& request, const std::string&
   grid->insertMeta("units", openvdb::StringMetadata(units));
   grid->insertMeta("box", openvdb::StringMetadata(box_text(lattice.box())));
   grid->insertMeta("voxel", openvdb::DoubleMetadata(h));
-  grid->insertMeta("method", openvdb::StringMetadata(method_text(request)));
+  grid->insertMeta("method", openvdb::StringMetadata(method_name(request)));
   grid->insertMeta("version", openvdb::StringMetadata(INTERSTICE_VERSION));
   return grid;
 }

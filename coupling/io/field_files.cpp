@@ -11,6 +11,7 @@
 #include "coupling/io/field_tables.h"
 #include "coupling/io/vdb_file.h"
 #include "coupling/io/vti_file.h"
+#include "voxel/methods.h"
 
 namespace interstice::io {
 namespace {
@@ -59,7 +60,7 @@ void add_origin(Json& json, const voxel::Field& field, std::size_t spheres,
   json["box_extended"] = more.x > slack || more.y > slack || more.z > slack;
   json["shape"] = lattice.n;
   json["method"] = name_of(request.computed);
-  json["overlap"] = "sum";
+  json["overlap"] = request.computed.overlap == voxel::Overlap::united ? "union" : "sum";
   json["periodic"] = request.computed.periodic;
   json["average_m"] =
       request.computed.average_length > 0 ? Json(request.computed.average_length) : Json(nullptr);
@@ -73,7 +74,10 @@ void add_sums(Json& json, const voxel::Field& field, bool mass_known) {
   json["solid_volume_field_m3"] = sums.solid_volume_field;
   json["available_volume_m3"] = available;
   json["mass_kg"] = mass_known ? Json(sums.mass) : Json(nullptr);
-  json["relative_conservation_error"] = relative_error(sums.solid_volume_field, sums.solid_volume_particles);
+  json["overlap_volume_m3"] = sums.overlap_volume;
+  json["deleted_volume_m3"] = sums.deleted_volume;
+  json["relative_conservation_error"] =
+      relative_error(sums.solid_volume_field, sums.solid_volume_particles - sums.overlap_volume);
   json["written_conservation_error"] = relative_error(sums.written_solid_volume, sums.solid_volume_field);
   json["solid_fraction_mean"] = solid;
   json["void_fraction_mean"] = 1 - solid;
@@ -99,6 +103,31 @@ void add_layers(Json& json, const FieldFilesRequest& request,
   json["solid_fraction_below_surface"] = layer.solid_fraction_below_surface;
 }
 
+Json scales_of(const voxel::ScaleReport& report) {
+  return {{"grain_volume_m3", report.grain_volume},
+          {"random_length_m", or_null(report.random_length)},
+          {"many_grains_length_m", or_null(report.many_grains_length)},
+          {"lengths", report.rows.size()}};
+}
+
+// Sentences about what is not as it would be by default.
+std::vector<std::string> remarks_of(const voxel::Field& field, const FieldFilesRequest& request,
+                                    const FieldFilesResult& result) {
+  std::vector<std::string> remarks;
+  const auto& sums = field.sums;
+  const double percent = sums.solid_volume_particles > 0 ? 100 / sums.solid_volume_particles : 0;
+  if (request.computed.least_void > 0)
+    remarks.push_back(fmt::format("the least void fraction of {} deleted {:.4g} m^3 of solid, {:.3g} % of it",
+                                  request.computed.least_void, sums.deleted_volume,
+                                  percent * sums.deleted_volume));
+  if (request.computed.overlap == voxel::Overlap::united)
+    remarks.push_back(
+        fmt::format("places that spheres share count once: {:.4g} m^3, {:.3g} % of the solid, taken off",
+                    sums.overlap_volume, percent * sums.overlap_volume));
+  if (result.scales) remarks.push_back(sentence_of(*result.scales));
+  return remarks;
+}
+
 Json summary_of(const voxel::Field& field, std::size_t spheres, const FieldFilesRequest& request,
                 const FieldFilesResult& result) {
   Json json;
@@ -109,6 +138,7 @@ Json summary_of(const voxel::Field& field, std::size_t spheres, const FieldFiles
   for (std::size_t i = 0; i < request.lines.size(); ++i) {
     json["lines"].push_back(line_summary(name_of(request.lines[i]), result.lines[i]));
   }
+  json["scales"] = result.scales ? scales_of(*result.scales) : Json(nullptr);
   json["messages"] = result.messages;
   json["seconds"] = request.seconds;
   json["version"] = request.version;
@@ -123,6 +153,7 @@ void take_samples(const voxel::Field& field, const voxel::SpheresView& spheres, 
   for (const auto& line : request.lines)
     result.lines.push_back(voxel::sample_line(field, line.axis, line.at));
   if (request.layers) result.layers = voxel::layer_columns(spheres, solids, *request.layers);
+  if (request.scales) result.scales = voxel::void_scales(field, spheres, request.computed.periodic);
 }
 
 void write_tables(const std::filesystem::path& folder, const FieldFilesRequest& request,
@@ -149,22 +180,13 @@ void write_tables(const std::filesystem::path& folder, const FieldFilesRequest& 
     write(folder / "profile_x.csv", csv_of(voxel::layer_profile(*result.layers, 0), 0));
     write(folder / "profile_y.csv", csv_of(voxel::layer_profile(*result.layers, 1), 1));
   }
+  if (result.scales) write(folder / "scales.csv", csv_of(*result.scales));
   write(folder / "summary.json", result.summary.dump(2) + "\n");
 }
 
 }  // namespace
 
-std::string name_of(const voxel::FieldRequest& computed) {
-  switch (computed.method) {
-    case voxel::Method::exact:
-      return "exact";
-    case voxel::Method::centre:
-      return "centre";
-    case voxel::Method::subsample:
-      return fmt::format("subsample:{}", computed.subsample);
-  }
-  return "exact";
-}
+std::string name_of(const voxel::FieldRequest& computed) { return voxel::method_name(computed); }
 
 std::string name_of(const scene::Slice& slice) { return fmt::format("{}={}", "xyz"[slice.axis], slice.at); }
 
@@ -184,6 +206,7 @@ FieldFilesResult write_field_files(const std::filesystem::path& folder, const vo
         fmt::format("{}.vti left out: {} cells, more than {}; slices and {}.vdb hold the field", request.stem,
                     field.lattice.cells(), request.vti_most_cells, request.stem));
   }
+  for (auto& remark : remarks_of(field, request, result)) result.messages.push_back(std::move(remark));
   result.summary = summary_of(field, spheres.count, request, result);
 
   std::error_code error;

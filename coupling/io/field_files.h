@@ -15,6 +15,7 @@
 #include "voxel/field.h"
 #include "voxel/layer.h"
 #include "voxel/sample.h"
+#include "voxel/scales.h"
 
 namespace interstice::io {
 
@@ -39,6 +40,7 @@ struct FieldFilesRequest {
   std::vector<scene::Slice> slices;
   std::vector<scene::Line> lines;
   std::optional<voxel::LayerRequest> layers;
+  bool scales = false;  // void fraction against averaging length
 };
 
 struct FieldFilesResult {
@@ -47,6 +49,7 @@ struct FieldFilesResult {
   std::vector<voxel::Samples> slices;  // in the order of the request, for figures
   std::vector<voxel::Samples> lines;
   std::optional<voxel::LayerColumns> layers;
+  std::optional<voxel::ScaleReport> scales;
   nlohmann::ordered_json summary;  // what summary.json holds
 };
 
@@ -56,7 +59,7 @@ FieldFilesResult write_field_files(const std::filesystem::path& folder, const vo
                                    const voxel::SpheresView& spheres, const voxel::Solids& solids,
                                    const FieldFilesRequest& request);
 
-/// "exact", "centre", "subsample:4".
+/// As `--method` takes it (voxel::method_name).
 std::string name_of(const voxel::FieldRequest& computed);
 /// "x=0.0045" and "y@x=0.009,z=3.5e-05": names of files, values in metres.
 std::string name_of(const scene::Slice& slice);

@@ -81,4 +81,45 @@ std::string csv_of(const voxel::LayerProfile& profile, int axis) {
   return fmt::to_string(out);
 }
 
+std::string csv_of(const voxel::ScaleReport& report) {
+  Text out;
+  out.append(
+      std::string_view("length_m,cubes,independent_cubes,grains_per_cube,void_fraction_mean,void_fraction_sd,"
+                       "void_fraction_min,void_fraction_max,sd_random,sd_one_grain\n"));
+  for (const voxel::ScaleRow& row : report.rows) {
+    fmt::format_to(std::back_inserter(out), "{},{},", row.length, row.cubes);
+    for (const double value :
+         {row.independent, row.grains, row.mean, row.sd, row.min, row.max, row.sd_random})
+      add(out, value);
+    add(out, row.sd_one_grain, '\n');
+  }
+  return fmt::to_string(out);
+}
+
+std::string sentence_of(const voxel::ScaleReport& report) {
+  const auto row_at = [&](double length) -> const voxel::ScaleRow* {
+    for (const auto& row : report.rows)
+      if (row.length == length) return &row;
+    return nullptr;
+  };
+  std::string text = "void fractions vary over cubes ";
+  if (const auto* row = row_at(report.random_length))
+    text += fmt::format(
+        "by no more than that many grains placed at random would (standard deviation {:.3g}) from "
+        "{:.4g} um on",
+        row->sd, 1e6 * row->length);
+  else
+    text +=
+        "by more than that many grains placed at random would at all lengths up to a third of the box or so";
+  if (const auto* row = row_at(report.many_grains_length))
+    text += fmt::format(
+        "; from {:.4g} um on (some {:.3g} grains a cube, standard deviation {:.3g}) one grain more or "
+        "less changes them by less than their standard deviation",
+        1e6 * row->length, row->grains, row->sd);
+  else
+    text +=
+        "; at no length with enough cubes in the box do they stand for more than the place of single grains";
+  return text;
+}
+
 }  // namespace interstice::io

@@ -5,6 +5,7 @@
 
 #include "voxel/layer.h"
 #include "voxel/sample.h"
+#include "voxel/scales.h"
 
 namespace interstice::io {
 
@@ -18,5 +19,12 @@ std::string csv_of(const voxel::LayerColumns& columns);
 
 /// The layer's numbers along x (axis 0) or y (axis 1), averaged over the other.
 std::string csv_of(const voxel::LayerProfile& profile, int axis);
+
+/// length_m,cubes,independent_cubes,grains_per_cube,void_fraction_mean,..._sd,..._min,..._max,sd_random,
+/// sd_one_grain; a row per averaging length.
+std::string csv_of(const voxel::ScaleReport& report);
+
+/// From which averaging lengths on a void fraction stands for more than a grain, in a sentence.
+std::string sentence_of(const voxel::ScaleReport& report);
 
 }  // namespace interstice::io
