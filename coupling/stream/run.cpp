@@ -276,7 +276,7 @@ void Run::guard() {
   } else if (check.damping > kWarnDamping) {
     options_.warn(
         fmt::format("{} {:.2f} of the time in which the dashpots of its contacts stop grain {}; above 1 "
-                    "it may vibrate on: a smaller [time] step lets it rest",
+                    "it may shake for ever, and a bed heat up: use a smaller [time] step",
                     where, check.damping, check.damping_grain));
     warned_ = true;
   }
