@@ -8,6 +8,8 @@
 
 #include "base/error.h"
 #include "coupling/scene/format_quantity.h"
+#include "voxel/methods.h"
+#include "voxel/scales.h"
 
 namespace interstice::apps {
 namespace {
@@ -62,7 +64,8 @@ void check_memory(const io::ParticleFrame& frame, const voxel::FieldRequest& req
                   const std::string& where) {
   const double h = request.lattice.h.x;
   double touched = 0;
-  for (const double r : frame.radius) touched += std::pow(2 * r / h + 9, 3);  // a grain's box in leaves of 8
+  for (const double r : frame.radius)  // a grain's box in leaves of 8
+    touched += std::pow(2 * std::max(r, request.kernel_length) / h + 9, 3);
   const auto& n = request.lattice.n;
   const double cells = static_cast<double>(n[0]) * static_cast<double>(n[1]) * static_cast<double>(n[2]);
   const double bytes = 12 * std::min(touched, cells) * (request.average_length > 0 ? 2 : 1);
@@ -73,6 +76,20 @@ void check_memory(const io::ParticleFrame& frame, const voxel::FieldRequest& req
                      "the field would need some {:.3g} GB ({} x {} x {} voxels); this machine has {:.3g} GB; "
                      "take a larger --voxel or a smaller --box, and check the unit of length (--length-unit)",
                      1e-9 * bytes, n[0], n[1], n[2], 1e-9 * memory));
+  }
+}
+
+void check_method_here(const voxel::FieldRequest& request, const VoidsOptions& options,
+                       const std::string& where) {
+  try {
+    voxel::check_method(request);
+  } catch (const InputError& error) {
+    wrong(where, error.what());
+  }
+  if (options.method.scales && request.lattice.cells() > voxel::kMostScaleCells) {
+    wrong(where,
+          fmt::format("--scales: the box has {} voxels; at most {}; take a larger --voxel or a smaller --box",
+                      request.lattice.cells(), voxel::kMostScaleCells));
   }
 }
 
@@ -106,11 +123,12 @@ FramePlan plan_frame(const io::ParticleFrame& frame, const VoidsOptions& options
     wrong(where, error.what());
   }
   computed.periodic = options.periodic;
-  computed.method = options.method;
-  computed.subsample = options.subsample;
+  apply(options.method, computed);
   computed.average_length = options.average;
   computed.density = options.density;
+  check_method_here(computed, options, where);
   check_memory(frame, computed, where);
+  request.scales = options.method.scales;
   check_places(computed.lattice, options, where);
   request.slices = options.slices;
   request.lines = options.lines;
@@ -129,6 +147,14 @@ FramePlan plan_frame(const io::ParticleFrame& frame, const VoidsOptions& options
   request.time = frame.time;
   for (const auto& wall : frame.walls) plan.solids.shapes.push_back(wall.shape);
   return plan;
+}
+
+std::string resolution_warning(const std::string& where, double resolution, double voxel) {
+  if (!(resolution > 1e-3 * voxel)) return "";
+  return fmt::format(
+      "{}: positions are written to {} only, more than a thousandth of the voxel ({}); grains are displaced "
+      "by up to half of that; write more digits (dump_modify ID format float %.12g, or doubles)",
+      where, scene::format_length(resolution), scene::format_length(voxel));
 }
 
 void wrap(io::ParticleFrame& frame, const voxel::FieldRequest& request) {

@@ -20,6 +20,10 @@ struct FramePlan {
 /// period that is no multiple of the voxel, a field that would not fit into memory.
 FramePlan plan_frame(const io::ParticleFrame& frame, const VoidsOptions& options, const std::string& where);
 
+/// What to say of positions that the file tells apart by `resolution` [m] only; "" where that is less than a
+/// thousandth of the voxel.
+std::string resolution_warning(const std::string& where, double resolution, double voxel);
+
 /// Moves grains by whole periods into the box along the periodic axes, where a dump has them unwrapped.
 void wrap(io::ParticleFrame& frame, const voxel::FieldRequest& request);
 

@@ -12,43 +12,6 @@
 namespace interstice::io {
 namespace {
 
-std::vector<double>* real_column(ParticleFrame& frame, Quantity quantity) {
-  switch (quantity) {
-    case Quantity::x:
-      return &frame.x;
-    case Quantity::y:
-      return &frame.y;
-    case Quantity::z:
-      return &frame.z;
-    case Quantity::radius:
-    case Quantity::diameter:
-      return &frame.radius;
-    case Quantity::vx:
-      return &frame.vx;
-    case Quantity::vy:
-      return &frame.vy;
-    case Quantity::vz:
-      return &frame.vz;
-    case Quantity::wx:
-      return &frame.wx;
-    case Quantity::wy:
-      return &frame.wy;
-    case Quantity::wz:
-      return &frame.wz;
-    case Quantity::density:
-      return &frame.density;
-    default:
-      return nullptr;
-  }
-}
-
-// Names in messages: quoted text of the file is cut, so that a binary file does not fill the screen.
-std::string shown(std::string_view text) {
-  std::string out;
-  for (const char c : text.substr(0, 40)) out += (c >= ' ' && c < 127) ? c : '?';
-  return out + (text.size() > 40 ? "..." : "");
-}
-
 bool same_letters(const std::string& a, const std::string& b) {
   const auto lower = [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; };
   return std::equal(a.begin(), a.end(), b.begin(), b.end(),
@@ -94,6 +57,64 @@ void map_one(const ColumnNames& wanted, const std::vector<std::string>& present,
 }
 
 }  // namespace
+
+std::vector<double>* real_column(ParticleFrame& frame, Quantity quantity) {
+  switch (quantity) {
+    case Quantity::x:
+      return &frame.x;
+    case Quantity::y:
+      return &frame.y;
+    case Quantity::z:
+      return &frame.z;
+    case Quantity::radius:
+    case Quantity::diameter:
+    case Quantity::volume:
+      return &frame.radius;
+    case Quantity::vx:
+      return &frame.vx;
+    case Quantity::vy:
+      return &frame.vy;
+    case Quantity::vz:
+      return &frame.vz;
+    case Quantity::wx:
+      return &frame.wx;
+    case Quantity::wy:
+      return &frame.wy;
+    case Quantity::wz:
+      return &frame.wz;
+    case Quantity::density:
+      return &frame.density;
+    default:
+      return nullptr;
+  }
+}
+
+bool is_length(Quantity quantity) {
+  return quantity == Quantity::x || quantity == Quantity::y || quantity == Quantity::z ||
+         quantity == Quantity::radius || quantity == Quantity::diameter;
+}
+bool is_velocity(Quantity quantity) {
+  return quantity == Quantity::vx || quantity == Quantity::vy || quantity == Quantity::vz;
+}
+bool is_spin(Quantity quantity) {
+  return quantity == Quantity::wx || quantity == Quantity::wy || quantity == Quantity::wz;
+}
+bool is_size(Quantity quantity) {
+  return quantity == Quantity::radius || quantity == Quantity::diameter || quantity == Quantity::volume;
+}
+
+double radius_of(Quantity quantity, double size) {
+  constexpr double pi = 3.14159265358979323846;
+  if (quantity == Quantity::diameter) return 0.5 * size;
+  if (quantity == Quantity::volume) return std::cbrt(size * (3 / (4 * pi)));
+  return size;
+}
+
+std::string shown(std::string_view text) {
+  std::string out;
+  for (const char c : text.substr(0, 40)) out += (c >= ' ' && c < 127) ? c : '?';
+  return out + (text.size() > 40 ? "..." : "");
+}
 
 const ColumnMap::Column* ColumnMap::find(Quantity quantity) const {
   for (const auto& column : columns) {
@@ -165,17 +186,18 @@ ColumnMap map_columns(const std::vector<std::string>& present, const std::vector
                       where, name, list_of(present), name));
     }
   }
-  if (map.find(Quantity::radius) == nullptr && map.find(Quantity::diameter) == nullptr) {
+  constexpr std::array<Quantity, 3> sizes{Quantity::radius, Quantity::diameter, Quantity::volume};
+  const auto size =
+      std::find_if(sizes.begin(), sizes.end(), [&](Quantity q) { return map.find(q) != nullptr; });
+  if (size == sizes.end()) {
     throw InputError(
         fmt::format("{}: no column `radius` or `diameter`; the columns are {}; add one to the dump, or "
                     "name it with --columns radius=NAME",
                     where, list_of(present)));
   }
-  // With both sizes present the radius is taken; the other one is not read twice.
-  if (map.find(Quantity::radius) != nullptr) {
-    for (auto& column : map.columns) {
-      if (column.quantity == Quantity::diameter) column.quantity = Quantity::none;
-    }
+  // With several sizes present the first of the list is taken; the others are not read twice.
+  for (auto& column : map.columns) {
+    if (is_size(column.quantity) && column.quantity != *size) column.quantity = Quantity::none;
   }
   return map;
 }
@@ -212,7 +234,7 @@ namespace {
 }
 
 void append_cell(std::string_view cell, const ColumnMap::Column& column, const Place& place,
-                 ParticleFrame& frame, bool id_known) {
+                 ParticleFrame& frame, bool id_known, WrittenDigits* digits) {
   if (column.quantity == Quantity::id || column.quantity == Quantity::material) {
     std::int64_t whole = 0;
     if (!parse_number(cell, whole)) {
@@ -231,20 +253,25 @@ void append_cell(std::string_view cell, const ColumnMap::Column& column, const P
   double value = 0;
   if (!parse_number(cell, value))
     bad_cell(place, column, cell, "is no number", "numbers only", frame, id_known);
-  const bool size = column.quantity == Quantity::radius || column.quantity == Quantity::diameter;
+  const double as_written = value;
   value *= column.factor;
-  if (column.quantity == Quantity::diameter) value *= 0.5;
   if (!std::isfinite(value))
     bad_cell(place, column, cell, "is not finite", "finite numbers only", frame, id_known);
-  if (size && !(value > 0))
-    bad_cell(place, column, cell, "is not positive", "sizes above 0", frame, id_known);
+  if (is_size(column.quantity)) {
+    value = radius_of(column.quantity, value);
+    if (!(value > 0)) bad_cell(place, column, cell, "is not positive", "sizes above 0", frame, id_known);
+  }
+  if (digits != nullptr && column.quantity >= Quantity::x && column.quantity <= Quantity::z) {
+    digits->add(static_cast<std::size_t>(column.quantity) - static_cast<std::size_t>(Quantity::x), cell,
+                as_written);
+  }
   real_column(frame, column.quantity)->push_back(value);
 }
 
 }  // namespace
 
 void append_row(std::string_view line, Separator separator, const ColumnMap& map, const Place& place,
-                ParticleFrame& frame) {
+                ParticleFrame& frame, WrittenDigits* digits) {
   const auto cells = split(line, separator);
   if (cells.size() != map.columns.size()) {
     throw InputError(
@@ -255,13 +282,15 @@ void append_row(std::string_view line, Separator separator, const ColumnMap& map
   bool id_known = false;
   for (std::size_t c = 0; c < cells.size(); ++c) {
     if (map.columns[c].quantity != Quantity::id) continue;
-    append_cell(cells[c], map.columns[c], place, frame, false);
+    append_cell(cells[c], map.columns[c], place, frame, false, nullptr);
     id_known = true;
   }
   for (std::size_t c = 0; c < cells.size(); ++c) {
     const auto& column = map.columns[c];
-    if (column.quantity == Quantity::none || column.quantity == Quantity::id) continue;
-    append_cell(cells[c], column, place, frame, id_known);
+    if (column.quantity == Quantity::none || column.quantity == Quantity::id ||
+        column.quantity == Quantity::time)
+      continue;
+    append_cell(cells[c], column, place, frame, id_known, digits);
   }
 }
 

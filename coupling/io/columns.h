@@ -9,10 +9,29 @@
 
 #include "coupling/io/particle_frame.h"
 #include "coupling/io/text_lines.h"
+#include "coupling/io/written_digits.h"
 
 namespace interstice::io {
 
-enum class Quantity { none, id, x, y, z, radius, diameter, vx, vy, vz, wx, wy, wz, density, material };
+enum class Quantity {
+  none,
+  id,
+  x,
+  y,
+  z,
+  radius,
+  diameter,
+  volume,
+  vx,
+  vy,
+  vz,
+  wx,
+  wy,
+  wz,
+  density,
+  material,
+  time
+};
 
 /// The names that `quantity` may have in a kind of file, the preferred first.
 struct ColumnNames {
@@ -53,14 +72,31 @@ struct Place {
   std::string text() const;
 };
 
-/// Appends one row to `frame` (a diameter goes to `radius` halved). Throws InputError at `place` for a cell
+/// Appends one row to `frame` (a diameter goes to `radius` halved, a volume as that of a sphere; a time is
+/// passed over), its positions also to `digits`. Throws InputError at `place` for a cell
 /// that is no finite number, a size that is not positive, or a row with more or fewer cells than columns.
 void append_row(std::string_view line, Separator separator, const ColumnMap& map, const Place& place,
-                ParticleFrame& frame);
+                ParticleFrame& frame, WrittenDigits* digits = nullptr);
 
 /// A number in full: no blanks, no rest. Infinities and NaN parse; false only for what is no number.
 bool parse_number(std::string_view text, double& value);
 bool parse_number(std::string_view text, std::int64_t& value);
+
+/// What kind of thing a quantity is.
+bool is_length(Quantity quantity);
+bool is_velocity(Quantity quantity);
+bool is_spin(Quantity quantity);
+bool is_size(Quantity quantity);
+
+/// Where `frame` keeps a real quantity; nullptr for the others (id, material, time, none).
+std::vector<double>* real_column(ParticleFrame& frame, Quantity quantity);
+
+/// The radius that a size (a radius, a diameter or a volume) stands for.
+double radius_of(Quantity quantity, double size);
+
+/// Text of a file for a message: cut and without control characters, so that a binary file does not fill the
+/// screen.
+std::string shown(std::string_view text);
 
 /// Sorts all columns by id. Returns the number of ids that occur more than once.
 std::int64_t sort_by_id(ParticleFrame& frame);

@@ -59,7 +59,7 @@ struct Header {
   double time = std::numeric_limits<double>::quiet_NaN();  // [the file's unit]
   std::int64_t atoms = -1;
   bool has_bounds = false;
-  Box bounds;  // [the file's unit] for a tilted box, around it
+  Box bounds;  // [the file's unit] of a tilted box: its lower corner, and from there its edges' lengths
   std::array<bool, 3> periodic{false, false, false};
   bool tilted = false;
   Vec3d tilt;  // xy, xz, yz [the file's unit]
@@ -75,16 +75,21 @@ bool is_scaled(const std::string& name) {
          name[1] == 's';
 }
 
-/// Box fractions to positions [the file's unit]. LAMMPS manual, "Triclinic (non-orthogonal) simulation
-/// boxes": the bounds of a tilted box are those around it; the box's own corner and edges follow from the
-/// tilts.
-void unscale(const Header& header, ParticleFrame& frame, const std::array<bool, 3>& scaled) {
-  const auto [xy, xz, yz] = header.tilt;
-  Box box = header.bounds;
+/// LAMMPS manual, "Triclinic (non-orthogonal) simulation boxes": the bounds in a dump are those around the
+/// tilted box; the box's own corner and edges follow from the tilts.
+Box untilted(Box box, const Vec3d& tilt) {
+  const auto [xy, xz, yz] = tilt;
   box.lo.x -= std::min({0.0, xy, xz, xy + xz});
   box.hi.x -= std::max({0.0, xy, xz, xy + xz});
   box.lo.y -= std::min(0.0, yz);
   box.hi.y -= std::max(0.0, yz);
+  return box;
+}
+
+/// Box fractions to positions [the file's unit].
+void unscale(const Header& header, ParticleFrame& frame, const std::array<bool, 3>& scaled) {
+  const auto [xy, xz, yz] = header.tilt;
+  const Box& box = header.bounds;
   const Vec3d edge = box.size();
   for (std::size_t i = 0; i < frame.size(); ++i) {
     const Vec3d s{frame.x[i], frame.y[i], frame.z[i]};
@@ -109,9 +114,11 @@ class DumpReader : public ParticleReader {
   bool read_header(Header& header);
   void read_section(std::string_view item, Header& header);
   void read_bounds(std::string_view flags, Header& header);
+  void refuse_slanted_periods(const Header& header) const;
   void read_units();
   ColumnMap read_columns(std::string_view names) const;
-  void read_rows(const Header& header, ParticleFrame& frame);
+  void read_rows(const Header& header, ParticleFrame& frame, WrittenDigits& digits);
+  double resolution(const Header& header, const WrittenDigits& digits) const;
   void to_si(const Header& header, ParticleFrame& frame);
   std::string_view line_of(const char* section);
   Place place() const { return {lines_, frame_}; }
@@ -152,7 +159,17 @@ void DumpReader::read_bounds(std::string_view flags, Header& header) {
   }
   header.tilted = words.size() >= 3 && words[0] == "xy";
   if (header.tilted) words.erase(words.begin(), words.begin() + 3);
-  for (std::size_t a = 0; a < 3 && a < words.size(); ++a) header.periodic[a] = words[a] == "pp";
+  // LAMMPS manual, "dump": two letters an axis, p periodic, f fixed, s or m shrink-wrapped; old dumps have
+  // none
+  const auto is_flag = [](std::string_view w) {
+    return w.size() == 2 && w.find_first_not_of("pfsm") == std::string_view::npos;
+  };
+  if (!words.empty() && (words.size() != 3 || !std::all_of(words.begin(), words.end(), is_flag))) {
+    wrong(
+        "the kinds of boundary cannot be read; three pairs of the letters p, f, s and m (or none) are "
+        "allowed; correct the line");
+  }
+  for (std::size_t a = 0; a < words.size(); ++a) header.periodic[a] = words[a] == "pp";
   for (int axis = 0; axis < 3; ++axis) {
     const auto cells = split(line_of("BOX BOUNDS"), {});
     double lo = 0, hi = 0, tilt = 0;
@@ -169,11 +186,24 @@ void DumpReader::read_bounds(std::string_view flags, Header& header) {
     header.tilt[axis] = tilt;
   }
   header.has_bounds = true;
-  if (header.tilted && (header.periodic[0] || header.periodic[1] || header.periodic[2])) {
-    warn(place().text() +
-         ": the box is tilted; its periodic images are not at right angles and are left out");
-    header.periodic = {false, false, false};
+  if (!header.tilted) return;
+  header.bounds = untilted(header.bounds, header.tilt);
+  if (!(header.bounds.hi.x >= header.bounds.lo.x && header.bounds.hi.y >= header.bounds.lo.y)) {
+    wrong("the tilts are larger than the bounds around the box; the box has no width; correct the lines");
   }
+  refuse_slanted_periods(header);
+}
+
+// The edges of a tilted box are (lx, 0, 0), (xy, ly, 0) and (xz, yz, lz): an edge that lies along its axis
+// can be a period of ours, whatever the others do.
+void DumpReader::refuse_slanted_periods(const Header& header) const {
+  const bool y = header.periodic[1] && header.tilt.x != 0;
+  const bool z = header.periodic[2] && (header.tilt.y != 0 || header.tilt.z != 0);
+  if (!y && !z) return;
+  wrong(
+      fmt::format("the box is tilted and periodic along {}; periods must lie along the axes; run with an "
+                  "orthogonal box (change_box all ortho), or write ff for pp to leave its images out",
+                  y ? "y" : "z"));
 }
 
 void DumpReader::read_units() {
@@ -291,7 +321,7 @@ bool DumpReader::read_header(Header& header) {
   return false;
 }
 
-void DumpReader::read_rows(const Header& header, ParticleFrame& frame) {
+void DumpReader::read_rows(const Header& header, ParticleFrame& frame, WrittenDigits& digits) {
   const auto expected = static_cast<std::size_t>(std::min<std::int64_t>(header.atoms, std::int64_t{1} << 20));
   for (auto* c : {&frame.x, &frame.y, &frame.z, &frame.radius})
     c->reserve(expected);  // a wrong count costs little
@@ -304,7 +334,7 @@ void DumpReader::read_rows(const Header& header, ParticleFrame& frame) {
       wrong(fmt::format("{} rows where NUMBER OF ATOMS says {}; complete the frame or remove it", row,
                         header.atoms));
     }
-    append_row(line, {}, header.map, place(), frame);
+    append_row(line, {}, header.map, place(), frame, &digits);
   }
 }
 
@@ -336,6 +366,17 @@ void DumpReader::to_si(const Header& header, ParticleFrame& frame) {
     frame.bounds = Box{units_.length * header.bounds.lo, units_.length * header.bounds.hi};
 }
 
+// A fraction of the box is as coarse as the box is long.
+double DumpReader::resolution(const Header& header, const WrittenDigits& digits) const {
+  std::array<double, 3> unit{};
+  const std::array<Quantity, 3> axes{Quantity::x, Quantity::y, Quantity::z};
+  for (std::size_t a = 0; a < 3; ++a) {
+    const bool scaled = is_scaled(header.map.find(axes[a])->name);
+    unit[a] = units_.length * (scaled ? header.bounds.size()[static_cast<int>(a)] : 1);
+  }
+  return digits.resolution(unit);
+}
+
 bool DumpReader::next(ParticleFrame& frame) {
   frame = ParticleFrame{};
   Header header;
@@ -343,13 +384,11 @@ bool DumpReader::next(ParticleFrame& frame) {
     if (frame_ == 0) wrong("no frame in the file; ITEM: TIMESTEP is due; check the file");
     return false;
   }
-  read_rows(header, frame);
+  WrittenDigits digits;
+  read_rows(header, frame, digits);
   to_si(header, frame);
-  if (const auto repeated = sort_by_id(frame); repeated > 0) {
-    warn(fmt::format("{}: {} ids occur more than once; every row counts as a grain", place().text(),
-                     repeated));
-  }
-  check_sizes(frame, lines_.path());
+  position_resolution_ = resolution(header, digits);
+  finish(frame, place().text(), lines_.path());
   ++frame_;
   return true;
 }

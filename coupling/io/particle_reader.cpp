@@ -6,10 +6,16 @@
 #include <cstring>
 
 #include "base/error.h"
+#include "coupling/io/columns.h"
 #include "coupling/io/dump_reader.h"
+#include "coupling/io/edem_csv_reader.h"
+#include "coupling/io/edem_hdf5_reader.h"
+#include "coupling/io/mercury_reader.h"
 #include "coupling/io/table_reader.h"
 #include "coupling/io/text_lines.h"
 #include "coupling/io/trajectory_adapter.h"
+#include "coupling/io/vtk_legacy_reader.h"
+#include "coupling/io/vtk_xml_reader.h"
 
 namespace interstice::io {
 namespace {
@@ -39,10 +45,11 @@ std::string extension_of(std::filesystem::path path) {
 }
 
 [[noreturn]] void refuse(const std::filesystem::path& path, const std::string& what) {
-  throw InputError(
-      fmt::format("{}:1: {}; readable are trajectory.h5part, LIGGGHTS/LAMMPS text dumps, CSV with a "
-                  "header, YADE text (x y z r), also gzipped; write one of them",
-                  path.string(), what));
+  throw InputError(fmt::format(
+      "{}:1: {}; readable are trajectory.h5part, LIGGGHTS/LAMMPS text dumps, VTK (legacy, .vtp), CSV "
+      "with a header, YADE text (x y z r), MercuryDPM .data, EDEM CSV and .h5, all but HDF5 also "
+      "gzipped; write one of them",
+      path.string(), what));
 }
 
 }  // namespace
@@ -70,17 +77,29 @@ void ParticleReader::check_sizes(const ParticleFrame& frame, const std::filesyst
       path.string(), *least, *most));
 }
 
+void ParticleReader::finish(ParticleFrame& frame, const std::string& where,
+                            const std::filesystem::path& path) {
+  if (const auto repeated = sort_by_id(frame); repeated > 0) {
+    warn(fmt::format("{}: {} ids occur more than once; every row counts as a grain", where, repeated));
+  }
+  check_sizes(frame, path);
+}
+
 std::unique_ptr<ParticleReader> open_particles(const std::filesystem::path& path,
                                                const ReaderOptions& options) {
   const std::string head = head_of(path);
   if (head.empty()) refuse(path, "the file is empty");
-  if (begins(head, "\x89HDF\r\n\x1a\n")) return open_trajectory(path, options);
+  const std::string extension = extension_of(path);
+  if (begins(head, "\x89HDF\r\n\x1a\n")) {
+    // by name first: a trajectory may have a journal, and is not to be opened without it
+    if (extension != ".h5part" && looks_like_edem_hdf5(path)) return open_edem_hdf5(path, options);
+    return open_trajectory(path, options);
+  }
   const auto first = head.find_first_not_of(" \t\r\n");
   if (first != std::string::npos && head.compare(first, 5, "ITEM:") == 0) return open_dump(path, options);
-  if (begins(head, "# vtk DataFile") || begins(head, "<?xml") || begins(head, "<VTKFile")) {
-    refuse(path, "VTK files are not read in this version");
-  }
-  const std::string extension = extension_of(path);
+  if (begins(head, "# vtk DataFile")) return open_vtk_legacy(path, options);
+  if (head.find("<VTKFile") != std::string::npos) return open_vtk_xml(path, options);
+  if (begins(head, "<?xml")) refuse(path, "XML, but not VTK's");
   if (extension == ".h5part" || extension == ".h5") refuse(path, "named as HDF5, but its content is none");
   if (extension == ".dump" || extension == ".lammpstrj")
     refuse(path, "named as a dump, but no ITEM: line begins it");
@@ -88,6 +107,8 @@ std::unique_ptr<ParticleReader> open_particles(const std::filesystem::path& path
   if (head.find(" atoms") != std::string::npos && head.find("xlo xhi") != std::string::npos) {
     refuse(path, "LAMMPS data files are not read in this version");
   }
+  if (looks_like_mercury(head)) return open_mercury(path, options);
+  if (looks_like_edem_csv(head)) return open_edem_csv(path, options);
   return open_table(path, options);
 }
 

@@ -31,6 +31,9 @@ class ParticleReader {
   virtual std::int64_t frames() const { return -1; }
   /// What kind of file this is, for messages and summaries ("LAMMPS dump", "CSV", "H5Part").
   virtual std::string kind() const = 0;
+  /// How finely the positions of the frame last read were told apart [m]: the largest distance between
+  /// neighbouring numbers of the digits (or bits) that the file has; 0 where it keeps doubles.
+  double position_resolution() const { return position_resolution_; }
   /// What looked odd so far but was read: one line each, no line twice.
   const std::vector<std::string>& warnings() const { return warnings_; }
 
@@ -38,6 +41,10 @@ class ParticleReader {
   void warn(const std::string& line);
   /// Warns, once a file, when the grains' sizes are no powder's: most likely the unit of length is another.
   void check_sizes(const ParticleFrame& frame, const std::filesystem::path& path);
+  /// What every frame ends with: sorted by id (warned of where ids repeat), sizes checked.
+  void finish(ParticleFrame& frame, const std::string& where, const std::filesystem::path& path);
+
+  double position_resolution_ = 0;
 
  private:
   std::vector<std::string> warnings_;

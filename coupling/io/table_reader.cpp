@@ -13,9 +13,9 @@ namespace {
 const std::vector<ColumnNames>& table_names() {
   static const std::vector<ColumnNames> names{
       {Quantity::id, "id", {"id"}},
-      {Quantity::x, "x", {"x"}},
-      {Quantity::y, "y", {"y"}},
-      {Quantity::z, "z", {"z"}},
+      {Quantity::x, "x", {"x", "Points:0"}},
+      {Quantity::y, "y", {"y", "Points:1"}},
+      {Quantity::z, "z", {"z", "Points:2"}},
       {Quantity::radius, "radius", {"radius", "r"}},
       {Quantity::diameter, "diameter", {"diameter", "d"}},
       {Quantity::vx, "vx", {"vx"}},
@@ -119,6 +119,7 @@ class TableReader : public ParticleReader {
   ReaderOptions options_;
   Separator separator_;
   ColumnMap map_;
+  WrittenDigits digits_;
   std::string comment_;  // the last comment line before the table, without its mark
   bool yade_ = false;
   bool done_ = false;
@@ -211,7 +212,7 @@ void TableReader::read_header(ParticleFrame& frame) {
   }
   yade_ = separator_.blanks() || separator_.character == '\t';
   set_columns(names);
-  append_row(line, separator_, map_, {lines_}, frame);
+  append_row(line, separator_, map_, {lines_}, frame, &digits_);
 }
 
 bool TableReader::next(ParticleFrame& frame) {
@@ -220,16 +221,14 @@ bool TableReader::next(ParticleFrame& frame) {
   read_header(frame);
   std::string_view line;
   while (next_line(line)) {
-    append_row(line, separator_, map_, {lines_}, frame);
+    append_row(line, separator_, map_, {lines_}, frame, &digits_);
     if (!lines_.line_was_whole()) {
       warn(lines_.where() + ": the last line has no line end; if the file was cut, its last number is wrong");
     }
   }
-  if (const auto repeated = sort_by_id(frame); repeated > 0) {
-    warn(fmt::format("{}: {} ids occur more than once; every row counts as a grain", lines_.path().string(),
-                     repeated));
-  }
-  check_sizes(frame, lines_.path());
+  const auto factor = [&](Quantity q) { return map_.find(q)->factor; };
+  position_resolution_ = digits_.resolution({factor(Quantity::x), factor(Quantity::y), factor(Quantity::z)});
+  finish(frame, lines_.path().string(), lines_.path());
   done_ = true;
   return true;
 }

@@ -1,5 +1,6 @@
 #include "coupling/io/text_lines.h"
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <system_error>
@@ -85,6 +86,18 @@ bool TextLines::next(std::string_view& line) {
   ++line_number_;
   if (!line.empty() && line.back() == '\r') line.remove_suffix(1);
   return true;
+}
+
+std::size_t TextLines::read(char* to, std::size_t count) {
+  std::size_t got = 0;
+  while (got < count) {
+    if (begin_ == end_ && !fill()) break;
+    const std::size_t part = std::min(count - got, end_ - begin_);
+    std::memcpy(to + got, buffer_.data() + begin_, part);
+    begin_ += part;
+    got += part;
+  }
+  return got;
 }
 
 std::int64_t TextLines::skip(std::int64_t count) {

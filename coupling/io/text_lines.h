@@ -25,6 +25,10 @@ class TextLines {
   /// Passes over up to `count` lines; returns how many there were.
   std::int64_t skip(std::int64_t count);
 
+  /// Up to `count` of the bytes that follow the last line, for binary parts of a file that begins as text;
+  /// fewer at its end. Lines in them are not counted.
+  std::size_t read(char* to, std::size_t count);
+
   /// Did the last line end with a line end? A file cut in the middle of a number shows only here.
   bool line_was_whole() const { return whole_; }
   /// Why reading stopped before the end ("the compressed data end early"); empty when all is well.

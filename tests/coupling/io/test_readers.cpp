@@ -100,11 +100,60 @@ TEST_F(Readers, DumpUnwrappedCoordinatesAreTaken) {
 TEST_F(Readers, DumpTiltedBoxIsUnscaledByItsEdges) {
   const auto frames = read_all(write("a.dump",
                                      "ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n1\nITEM: BOX BOUNDS xy xz yz "
-                                     "pp pp pp\n-1 12 2\n0 11 -1\n0 6 3\n"
+                                     "ff fs mm\n-1 12 2\n0 11 -1\n0 6 3\n"
                                      "ITEM: ATOMS id radius xs ys zs\n1 0.01 0.5 0.25 0.5\n"));
   EXPECT_DOUBLE_EQ(frames[0].x[0], 0.5 * 10 + 0.25 * 2 + 0.5 * -1);
   EXPECT_DOUBLE_EQ(frames[0].y[0], 0.25 * 8 + 0.5 * 3);
   EXPECT_DOUBLE_EQ(frames[0].z[0], 0.5 * 6);
+  EXPECT_EQ(*frames[0].bounds, (Box{{0, 0, 0}, {10, 8, 6}}));
+}
+
+TEST_F(Readers, DumpTiltedBoxMayBePeriodicAlongAnEdgeThatLiesOnItsAxis) {
+  const auto with = [&](const std::string& bounds) {
+    return replaced(replaced(small_dump, "BOX BOUNDS pp ff ss", "BOX BOUNDS xy xz yz " + bounds.substr(0, 8)),
+                    "0 2e-4\n-1e-4 1e-4\n0 3e-4\n", bounds.substr(9));
+  };
+  const auto along_x = read_all(write("a.dump", with("pp ff ff\n0 3e-4 1e-4\n-1e-4 1e-4 0\n0 3e-4 0\n")));
+  EXPECT_EQ(along_x[0].periodic, (std::array<bool, 3>{true, false, false}));
+  EXPECT_DOUBLE_EQ(along_x[0].bounds->hi.x, 2e-4);
+  const auto upright = read_all(write("a.dump", with("pp pp pp\n0 2e-4 0\n-1e-4 1e-4 0\n0 3e-4 0\n")));
+  EXPECT_EQ(upright[0].periodic, (std::array<bool, 3>{true, true, true}));
+  EXPECT_EQ(*upright[0].bounds, (Box{{0, -1e-4, 0}, {2e-4, 1e-4, 3e-4}}));
+}
+
+TEST_F(Readers, DumpUnwrappedFractionsOfTheBoxAreUnscaled) {
+  const auto text = replaced(small_dump, "diameter y x z", "diameter ysu xsu zsu");
+  const auto frames =
+      read_all(write("a.dump", replaced(text, "2 1 3e-05 7e-5 8e-5 9e-5", "2 1 3e-05 0.25 1.5 -0.5")));
+  EXPECT_DOUBLE_EQ(frames[0].x[1], 3e-4);
+  EXPECT_DOUBLE_EQ(frames[0].z[1], -1.5e-4);
+}
+
+double resolution_of(const std::filesystem::path& path, const ReaderOptions& options = {}) {
+  const auto reader = open_particles(path, options);
+  ParticleFrame frame;
+  EXPECT_TRUE(reader->next(frame));
+  return reader->position_resolution();
+}
+
+TEST_F(Readers, ResolutionOfPositionsIsThatOfTheirDigits) {
+  const auto csv = [&](const std::string& rows, const std::string& head = "x,y,z,radius\n") {
+    return resolution_of(write("a.csv", head + rows));
+  };
+  EXPECT_NEAR(csv("0.0123456,0,0,1e-5\n"), 1e-7, 1e-15);
+  EXPECT_NEAR(csv("0.0123456,0.1,0,1e-5\n"), 1e-6, 1e-14);  // %g: 0.1 is 0.100000 without its zeros
+  EXPECT_NEAR(csv("1.23456e-2,0,-1.5e-01,1e-5\n"), 1e-6, 1e-14);
+  EXPECT_NEAR(csv("0.012300,0.1,0,1e-5\n"), 1e-5, 1e-13);  // five digits are the most there are
+  EXPECT_NEAR(csv("12.3456,0,0,1\n", "x [um],y,z,radius\n"), 1e-10, 1e-18);
+  EXPECT_NEAR(csv("123.456789012,0,0,1e-5\n"), 1e-9, 1e-17);
+  EXPECT_EQ(csv("0,0,0,1e-5\n"), 0);
+  ReaderOptions millimetres;
+  millimetres.length_unit = 1e-3;
+  EXPECT_NEAR(resolution_of(write("a.csv", "x,y,z,radius\n12.3456,0,0,1\n"), millimetres), 1e-7, 1e-15);
+  EXPECT_NEAR(resolution_of(write("a.dump", small_dump)), 1e-5, 1e-13);
+  // three digits of fractions of a box of 3e-4 m
+  const auto scaled = replaced(small_dump, "diameter y x z", "diameter ys xs zs");
+  EXPECT_NEAR(resolution_of(write("a.dump", replaced(scaled, "9e-5", "0.125"))), 1e-3 * 3e-4, 1e-15);
 }
 
 TEST_F(Readers, DumpOfNoGrainsIsAFrame) {

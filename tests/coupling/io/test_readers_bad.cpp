@@ -64,6 +64,21 @@ TEST_F(BadFiles, DumpHeader) {
   expect_error(with("ITEM: ATOMS", "ITEM: ENTRIES"), "a.dump:9", "local entries");
 }
 
+TEST_F(BadFiles, DumpBoundariesAndTilts) {
+  const auto with = [&](const std::string& to) {
+    return error_of(
+        write("a.dump", replaced(good(), "ITEM: BOX BOUNDS ff ff ff\n0 0.001\n0 0.0005\n0 0.0004\n", to)));
+  };
+  expect_error(with("ITEM: BOX BOUNDS ff ff\n0 1\n0 1\n0 1\n"), "a.dump:5", "kinds of boundary");
+  expect_error(with("ITEM: BOX BOUNDS ff ff qq\n0 1\n0 1\n0 1\n"), "a.dump:5", "kinds of boundary");
+  const auto slanted = with("ITEM: BOX BOUNDS xy xz yz ff pp ff\n0 2 0.5\n0 1 0\n0 1 0\n");
+  expect_error(slanted, "a.dump:8: frame 0", "tilted and periodic along y");
+  expect_error(slanted, "a.dump:8", "change_box all ortho");
+  expect_error(with("ITEM: BOX BOUNDS xy xz yz ff ff pp\n0 2 0\n0 1 0\n0 1 0.5\n"), "a.dump:8", "along z");
+  expect_error(with("ITEM: BOX BOUNDS xy xz yz ff ff ff\n0 2 5\n0 1 0\n0 1 0\n"), "a.dump:8", "no width");
+  expect_error(with("ITEM: BOX BOUNDS xy xz yz ff ff ff\n0 2\n0 1 0\n0 1 0\n"), "a.dump:6", "box bounds");
+}
+
 TEST_F(BadFiles, DumpWithoutBoundsCannotBeUnscaled) {
   const std::string text =
       "ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n1\nITEM: ATOMS id xs ys zs radius\n1 0 0 0 1e-5\n";
@@ -142,8 +157,7 @@ TEST_F(BadFiles, FilesOfNoKnownKind) {
   expect_error(error_of(folder_ / "missing.dump"), "missing.dump", "cannot be opened");
   expect_error(error_of(folder_), folder_.string(), "is a folder");
   expect_error(error_of(write("a.dump", "")), "a.dump:1", "empty");
-  expect_error(error_of(write("a.vtk", "# vtk DataFile Version 2.0\n")), "a.vtk:1",
-               "not read in this version");
+  expect_error(error_of(write("a.vtk", "# vtk DataFile Version 2.0\n")), "a.vtk:1", "cut in its header");
   expect_error(error_of(write("a.h5part", "x,y,z,radius\n")), "a.h5part:1", "named as HDF5");
   expect_error(error_of(write("a.dump", "x,y,z,radius\n")), "a.dump:1", "named as a dump");
   expect_error(error_of(write("a.bin", std::string(100, '\0'))), "a.bin:1", "binary");
