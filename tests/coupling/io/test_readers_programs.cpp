@@ -1,5 +1,7 @@
 // Files of MercuryDPM and EDEM: good ones by hand and from data/samples/make_samples.py, bad ones by one
 // change each.
+#include <random>
+
 #include "coupling/io/hdf5_handles.h"
 #include "reader_testing.h"
 
@@ -212,6 +214,34 @@ TEST_F(ProgramFiles, BadEdemHdf5) {
   for (const std::size_t part : {9u, 100u, 800u, 2000u}) {
     EXPECT_NE(error_of(write("e.h5", whole.substr(0, part))), "") << part;
   }
+}
+
+// Cut at every 7th byte, and with random bytes: read or refused. (What the HDF5 library itself does with its
+// own damaged bookkeeping is beyond the reader; see docs/FILES.md, Damage.)
+TEST_F(ProgramFiles, DamagedEdemHdf5IsReadOrRefused) {
+  EdemFile edem(folder_ / "a.h5");
+  edem.fill(true, 2);
+  const std::string whole = slurp(edem.path);
+  const auto is_read = [&](const std::string& bytes) {
+    try {
+      for (const auto& f : read_all(write("b.h5", bytes))) {
+        for (const double r : f.radius) EXPECT_TRUE(std::isfinite(r) && r > 0);
+      }
+      return true;
+    } catch (const InputError& error) {
+      EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos) << error.what();
+      return false;
+    }
+  };
+  for (std::size_t at = 1; at < whole.size(); at += 7) EXPECT_FALSE(is_read(whole.substr(0, at))) << at;
+  std::mt19937 random(20240229);
+  int refused = 0;
+  for (int i = 0; i < 500; ++i) {
+    std::string bytes = whole;
+    for (int k = 0; k < 8; ++k) bytes[random() % bytes.size()] = static_cast<char>(random());
+    refused += is_read(bytes) ? 0 : 1;
+  }
+  EXPECT_GT(refused, 50);
 }
 
 }  // namespace
