@@ -18,7 +18,10 @@ for program in "$build"/tests/extremes/extreme_*; do
   "$program" --gtest_also_run_disabled_tests --gtest_filter='*DISABLED_*' >>"$report/$name.log" 2>&1 || true
 done
 "$build/tests/report/report_page" extreme "$root/docs/EXTREMES.md" "$report"/extreme_*.tsv
-if [ -f "$report/stability_map.tsv" ]; then cp "$report/stability_map.tsv" "$build/tests/extremes/"; fi
+if [ -f "$report/stability_map.tsv" ]; then
+  cp "$report/stability_map.tsv" "$build/tests/extremes/"
+  "$root/tests/verification/figures.sh" --map "$report/stability_map.tsv" "$root/docs/images/stability_map.png"
+fi
 if [ -n "$failed" ]; then
   echo "failed:$failed (their rows say NO)" >&2
   exit 1

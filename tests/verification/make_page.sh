@@ -15,5 +15,6 @@ status=0
 ctest --test-dir "$build" -L verification -LE "$apart" --output-on-failure >"$report/log" 2>&1 || status=$?
 tail -n 25 "$report/log"
 "$build/tests/report/report_page" check "$root/docs/VERIFICATION.md" "$report"/*.tsv
+"$root/tests/verification/figures.sh" "$report" "$root/docs/images/oblique_impacts.png"
 [ "$status" = 0 ] || echo "make_page.sh: checks failed; their rows say NO" >&2
 exit "$status"
