@@ -2,7 +2,7 @@
 //
 // Spheres that lie wholly inside another are left out altogether. Of the others, each pair that overlaps
 // shares a lens, whose volume is known in closed form. A lens inside one cell is taken off that cell as it
-// is; one that spans cells is integrated cell by cell (error of a cell below 1e-7 of its volume), and what is
+// is; one that spans cells is integrated cell by cell (error of a cell below 5e-7 of its volume), and what is
 // missing to the closed form (some 1e-9) goes to the cell with the largest part, so that the lens is exact in
 // total. Where a third sphere reaches into a lens, the cells that it touches are integrated with all spheres
 // at once (error below 1e-5 of a cell, for more than 16 spheres in one cell below 1e-3).

@@ -115,6 +115,29 @@ TEST(Union, OfTwoSpheresCellByCell) {
   EXPECT_GT(both, 30);
 }
 
+TEST(Union, OfTwoSpheresOnAnAxisSlabBySlab) {
+  // between planes x = const the union is a body of revolution whose volume is a polynomial
+  const double r = 31e-6, a = 81.3e-6, b = 122.9e-6, y = 97.7e-6, z = 104.9e-6, rim = 0.5 * (a + b);
+  Spheres spheres;
+  spheres.add({a, y, z}, r);
+  spheres.add({b, y, z}, r);
+  const auto up_to = [&](double x) {  // the union's volume left of x
+    const auto ball = [&](double d) { return std::numbers::pi * (r * r * d - d * d * d / 3); };
+    const double first = ball(std::clamp(x, a - r, rim) - a) - ball(-r);
+    const double second = ball(std::clamp(x, rim, b + r) - b) - ball(rim - b);
+    return first + second;
+  };
+  for (const double h : {20e-6, 13.1e-6}) {
+    const Field field = united(spheres, h);
+    for (int i = 0; i < field.lattice.n[0]; ++i) {
+      double slab = 0;
+      for (int j = 0; j < field.lattice.n[1]; ++j)
+        for (int k = 0; k < field.lattice.n[2]; ++k) slab += value(field, i, j, k);
+      EXPECT_NEAR(slab, (up_to((i + 1) * h) - up_to(i * h)) / (h * h * h), 5e-7) << h << " " << i;
+    }
+  }
+}
+
 TEST(Union, OfThreeMutuallyOverlappingSpheres) {
   for (const double spread : {8e-6, 14e-6, 18.5e-6, 24e-6}) {
     Spheres spheres;
