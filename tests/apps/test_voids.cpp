@@ -5,6 +5,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
@@ -138,6 +139,56 @@ TEST_F(Voids, SeveralInputsOfSeveralKindsAgree) {
   }
 }
 
+TEST_F(Voids, MethodsOfCouplingsSayWhatTheyDelete) {
+  const auto summary = [&](const std::string& options) {
+    const Outcome outcome =
+        call(sample("two-frames.dump") + to_out() + "--overwrite --voxel 10um --json " + options);
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    return Json::parse(outcome.out);
+  };
+  const double truth = sphere_volume(sample("two-frames.dump"), 1);
+  const Json kept = summary("--method divided");
+  EXPECT_EQ(kept["method"], "divided");
+  EXPECT_EQ(kept["deleted_volume_m3"], 0);
+  EXPECT_LT(kept["void_fraction_min"], 0);
+  const Json limited = summary("--method divided:0.1");
+  EXPECT_EQ(limited["method"], "divided:0.1");
+  EXPECT_NEAR(limited["void_fraction_min"].get<double>(), 0.1, 1e-12);
+  const double deleted = limited["deleted_volume_m3"];
+  EXPECT_GT(deleted, 0);
+  EXPECT_NEAR(limited["solid_volume_field_m3"].get<double>() + deleted, truth, 1e-9 * truth);
+  EXPECT_NE(limited["messages"].dump().find("deleted"), std::string::npos);
+  const Json spread = summary("--method kernel:60um");
+  EXPECT_EQ(spread["method"], "kernel:6e-05m");
+  EXPECT_LE(spread["relative_conservation_error"].get<double>(), 1e-12);
+}
+
+TEST_F(Voids, UnionTakesSharedPlacesOffOnce) {
+  // two spheres of 50 um, 60 um apart, and one inside the first
+  std::ofstream(folder_ / "pair.csv") << "x,y,z,radius\n0,0,0,5e-5\n6e-5,0,0,5e-5\n1e-6,0,0,1e-5\n";
+  const Outcome outcome =
+      call((folder_ / "pair.csv").string() + to_out() + "--voxel 10um --overlap union --json");
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const Json s = Json::parse(outcome.out);
+  EXPECT_EQ(s["overlap"], "union");
+  const double pi = 3.14159265358979323846, r = 5e-5, d = 6e-5;
+  const double lens = pi * (4 * r + d) * (2 * r - d) * (2 * r - d) / 12;
+  EXPECT_NEAR(s["overlap_volume_m3"].get<double>() / (lens + 4 * pi / 3 * 1e-15), 1, 1e-12);
+  EXPECT_LE(s["relative_conservation_error"].get<double>(), 1e-12);
+  EXPECT_EQ(s["negative_voxels"], 0);
+}
+
+TEST_F(Voids, ScalesAreATableAndASentence) {
+  const Outcome outcome = call(sample("two-frames.dump") + to_out() + "--voxel 20um --scales --json");
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const std::string table = slurp(fs::path(out()) / "two-frames" / "scales.csv");
+  EXPECT_EQ(table.rfind("length_m,cubes,independent_cubes,grains_per_cube,void_fraction_mean", 0), 0u);
+  const Json s = Json::parse(outcome.out);
+  EXPECT_EQ(static_cast<std::int64_t>(std::count(table.begin(), table.end(), '\n')),
+            1 + s["scales"]["lengths"].get<std::int64_t>());
+  EXPECT_NE(s["messages"].dump().find("void fractions vary over cubes"), std::string::npos);
+}
+
 TEST_F(Voids, ABoxThatIsNoMultipleIsExtendedUpwardAndSaidSo) {
   const Outcome outcome =
       call(sample("yade.txt") + to_out() + "--voxel 30um --box 0mm,1mm,0mm,0.5mm,0mm,0.4mm --json");
@@ -213,9 +264,17 @@ TEST_F(Voids, WrongUseIsRefusedBeforeAnythingIsWritten) {
   expect_refused(dump + "--line y@x=9mm,z=0.1mm", "--line: x = 9 mm is outside the box");
   expect_refused(dump + "--layers 0um,70um,40", "--layers");
   expect_refused(dump + "--layers 70um,0um,4,4", "--layers");
-  expect_refused(dump + "--method divided", "not in this version");
   expect_refused(dump + "--method subsample:0", "--method");
-  expect_refused(dump + "--overlap union", "not in this version");
+  expect_refused(dump + "--method subsample", "--method");
+  expect_refused(dump + "--method divided:1", "least void fraction");
+  expect_refused(dump + "--method divided:x", "least void fraction");
+  expect_refused(dump + "--method kernel", "kernel's length is missing");
+  expect_refused(dump + "--method kernel:60", "kernel");
+  expect_refused(dump + "--method kernel:-60um", "kernel");
+  expect_refused(dump + "--method kernel:1m", "1000 voxels");
+  expect_refused(dump + "--method cloud", "kernel:LENGTH");
+  expect_refused(dump + "--overlap most", "union");
+  expect_refused(dump + "--overlap union --method centre", "--method exact");
   expect_refused(dump + "--walls tool.stl@mm", "not in this version");
   expect_refused(dump + "--frame 2", "0 to 1");
   expect_refused(dump + "--frame first", "--frame");
