@@ -35,6 +35,7 @@ void prepare_output_folder(const std::filesystem::path& folder, bool overwrite);
 
 void add_run(CLI::App& root);
 void add_voids(CLI::App& root);
+void add_batch(CLI::App& root);
 void add_compare(CLI::App& root);
 void add_check(CLI::App& root);
 void add_info(CLI::App& root);

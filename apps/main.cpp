@@ -24,6 +24,7 @@ int run(int argc, char** argv) {
   root.fallthrough(false);
   apps::add_run(root);
   apps::add_voids(root);
+  apps::add_batch(root);
   apps::add_compare(root);
   apps::add_check(root);
   apps::add_info(root);

@@ -1,17 +1,14 @@
 // interstice voids INPUT... -o DIR: void fraction from any particle file.
 #include <fmt/format.h>
 
-#include <chrono>
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "apps/voids_figures.h"
-#include "apps/voids_frame.h"
-#include "apps/voids_options.h"
+#include "apps/voids_flags.h"
+#include "apps/voids_output.h"
 #include "base/error.h"
-#include "base/version.h"
+#include "coupling/figures/figures.h"
 #include "coupling/io/field_files.h"
-#include "coupling/io/vti_file.h"
 #include "coupling/scene/format_quantity.h"
 
 namespace interstice::apps {
@@ -27,25 +24,7 @@ struct Input {
   bool one_of_many = false;           // frames get a folder each
 };
 
-std::string place_of(const std::filesystem::path& path, std::int64_t frame) {
-  return fmt::format("{}: frame {}", path.string(), frame);
-}
-
 void print_warning(const std::string& line) { fmt::print(stderr, "warning: {}\n", line); }
-
-// A dump knows its periodic axes, but only the user knows whether the box of the field is the box that
-// repeats.
-void warn_of_periods(const io::ParticleFrame& frame, const VoidsOptions& options, const std::string& where) {
-  std::string axes;
-  for (std::size_t a = 0; a < 3; ++a) {
-    if (frame.periodic[a] && !options.periodic[a]) axes += "xyz"[a];
-  }
-  if (axes.empty()) return;
-  print_warning(
-      fmt::format("{}: periodic along {}; grains that reach across count on one side only; add --periodic {} "
-                  "(and --box where the field is to cover less)",
-                  where, axes, axes));
-}
 
 // Reads all frames that are asked for, and checks that each goes together with the options.
 Input inspect(const std::filesystem::path& path, const VoidsOptions& options) {
@@ -60,7 +39,9 @@ Input inspect(const std::filesystem::path& path, const VoidsOptions& options) {
   if (options.frames == Frames::one) {
     while (seen < options.frame && reader->skip()) ++seen;
   }
+  double resolution = 0;
   while (reader->next(frame)) {
+    resolution = std::max(options.frames == Frames::all ? resolution : 0, reader->position_resolution());
     if (options.frames == Frames::all) plan_frame(frame, options, place_of(path, seen));
     std::swap(frame, latest);
     ++seen;
@@ -78,7 +59,11 @@ Input inspect(const std::filesystem::path& path, const VoidsOptions& options) {
   input.count = seen - input.first;
   input.one_of_many = input.count > 1;
   for (const auto& line : reader->warnings()) print_warning(line);
-  warn_of_periods(latest, options, path.string());
+  if (const auto line = resolution_warning(path.string(), resolution, options.voxel); !line.empty()) {
+    print_warning(line);
+  }
+  const std::string periods = warning_of_periods(latest, options, path.string());
+  if (!periods.empty()) print_warning(periods);
   return input;
 }
 
@@ -94,20 +79,6 @@ std::vector<Input> inspect_all(const VoidsOptions& options) {
   }
   if (!errors.empty()) throw InputError(errors);
   return inputs;
-}
-
-// What an earlier call left in an input's folder must not lie between new files.
-void clear_results(const std::filesystem::path& folder) {
-  std::error_code error;
-  for (const char* name : {"fields.vdb", "fields.vti", "fields.pvd", "slices", "lines", "layers.csv",
-                           "profile_x.csv", "profile_y.csv", "summary.json"}) {
-    std::filesystem::remove_all(folder / name, error);
-  }
-  if (!std::filesystem::is_directory(folder, error)) return;
-  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
-    if (entry.path().filename().string().rfind("frame_", 0) == 0)
-      std::filesystem::remove_all(entry.path(), error);
-  }
 }
 
 void print_summary(const Json& s) {
@@ -167,47 +138,34 @@ class Voids {
         fmt::print(stderr, "{}: {} of {} frames\n", input.path.string(), i + 1, input.count);
       }
     }
+    if (input.one_of_many) draw_over_time(input);
+  }
+
+  void draw_over_time(const Input& input) {
+    try {
+      studies::write_time_space(options_.output / input.stem, moments_, time_space_text(input.path, options_),
+                                options_.figures && figures::plotting_available(), options_.formats);
+    } catch (const std::exception& error) {  // the frames are written; a picture is no reason to fail
+      print_warning(fmt::format("{}: the map over time is missing: {}", input.path.string(), error.what()));
+    }
+    moments_.clear();
   }
 
   void run_frame(const Input& input, std::int64_t number, io::ParticleFrame& frame) {
-    FramePlan plan = plan_frame(frame, options_, place_of(input.path, number));
-    auto& request = plan.request;
-    wrap(frame, request.computed);
-    request.source = input.path.string();
-    request.kind = input.kind;
-    request.frame = number;
-    request.version = kVersion;
-    const auto view = view_of(frame);
-    const auto begin = std::chrono::steady_clock::now();
-    const voxel::Field field = voxel::compute_field(view, plan.solids, request.computed);
-    request.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-
     const std::string inner = fmt::format("frame_{:06}", number);
     const auto series = options_.output / input.stem;
     const auto folder = input.one_of_many ? series / inner : series;
-    auto result = io::write_field_files(folder, field, view, plan.solids, request);
-    if (input.one_of_many) add_to_series(series, inner, request, result);
-    if (options_.figures) {
-      const std::string missing = draw_voids(folder, request, result, frame);
-      if (!missing.empty() && !figures_warned_) print_warning(missing);
-      figures_warned_ = figures_warned_ || !missing.empty();
-    }
-    Json summary = result.summary;
+    const FrameOutput output =
+        write_frame({input.path, input.kind, number, folder}, frame,
+                    plan_frame(frame, options_, place_of(input.path, number)), options_);
+    if (input.one_of_many) moments_.push_back({number, output.request.time, output.request.step, folder});
+    if (input.one_of_many) add_to_series(series, inner, output);
+    if (!output.missing_figures.empty() && !figures_warned_) print_warning(output.missing_figures);
+    figures_warned_ = figures_warned_ || !output.missing_figures.empty();
+    Json summary = output.files.summary;
     summary["folder"] = folder.string();
     if (!compute_.json) print_summary(summary);
     results_.push_back(std::move(summary));
-  }
-
-  // ParaView opens the frames as one animation through fields.pvd; without a time, steps or numbers order
-  // them.
-  static void add_to_series(const std::filesystem::path& folder, const std::string& inner,
-                            const io::FieldFilesRequest& request, const io::FieldFilesResult& result) {
-    for (const auto& path : result.written) {
-      if (path.extension() != ".vti") continue;
-      const double step = static_cast<double>(request.step >= 0 ? request.step : request.frame);
-      io::append_to_pvd(folder / "fields.pvd", {std::isfinite(request.time) ? request.time : step,
-                                                inner + "/" + path.filename().string()});
-    }
   }
 
   // With one result its numbers also stand at top level, where a script looks first.
@@ -220,6 +178,7 @@ class Voids {
   const VoidsOptions& options_;
   const ComputeOptions& compute_;
   Json results_ = Json::array();
+  std::vector<studies::TimeSpaceFrame> moments_;  // of the input in hand
   bool figures_warned_ = false;
 };
 
@@ -234,29 +193,7 @@ void voids(const VoidsWords& words) {
 void add_voids(CLI::App& root) {
   auto words = std::make_shared<VoidsWords>();
   CLI::App* c = root.add_subcommand("voids", "void fraction from particle files");
-  c->add_option("inputs", words->inputs,
-                "particle files: trajectory.h5part, LIGGGHTS/LAMMPS text dumps, CSV, YADE text; also .gz")
-      ->required();
-  c->add_option("-o,--output", words->output, "folder for the results")->required();
-  c->add_option("--voxel", words->voxel, "edge of a voxel, such as 20um")->required();
-  c->add_option("--box", words->box, "x0,x1,y0,y1,z0,z1 with units (default: the particles' bounds)");
-  c->add_option("--periodic", words->periodic, "axes along which the box repeats, such as xy");
-  c->add_option("--method", words->method, "exact, centre or subsample:N");
-  c->add_option("--overlap", words->overlap, "how overlapping spheres count: sum");
-  c->add_option("--average", words->average, "also fields averaged over a cube of this edge");
-  c->add_option("--walls", words->walls, "not in this version")->allow_extra_args(false);
-  c->add_option("--slice", words->slices, "plane of voxels, such as x=4.5mm (repeatable)")
-      ->allow_extra_args(false);
-  c->add_option("--line", words->lines, "row of voxels, such as y@x=9mm,z=35um (repeatable)")
-      ->allow_extra_args(false);
-  c->add_option("--layers", words->layers, "z0,z1,NX,NY: packing of NX by NY columns between two heights");
-  c->add_option("--density", words->density, "of the grains, where the file has none, such as 7800kg/m^3");
-  c->add_option("--length-unit", words->length_unit, "unit of length of files that carry none (default m)");
-  c->add_option("--frame", words->frame, "number from 0, last or all (default last)");
-  c->add_option("--columns", words->columns, "OURS=THEIRS,...: columns by other names, such as radius=c_r");
-  c->add_flag("--overwrite", words->overwrite, "replace results in the folder");
-  c->add_flag("--no-figures", words->no_figures, "no PNG files");
-  add_compute_options(*c, words->compute);
+  add_voids_flags(*c, *words);
   c->callback([words] { voids(*words); });
 }
 

@@ -39,34 +39,6 @@ double positive(const std::string& text, Dimension dimension, const char* key) {
   return value;
 }
 
-void read_method(const std::string& text, VoidsOptions& options) {
-  const auto parts = parts_of(text, ':');
-  std::int64_t n = 0;
-  if (text == "exact") {
-    options.method = voxel::Method::exact;
-  } else if (text == "centre" || text == "center") {
-    options.method = voxel::Method::centre;
-  } else if (parts[0] == "subsample" && parts.size() == 2 && whole_number(parts[1], n) && n >= 1 && n <= 64) {
-    options.method = voxel::Method::subsample;
-    options.subsample = static_cast<int>(n);
-  } else if (parts[0] == "subsample") {
-    throw InputError("--method: " + text +
-                     ": the points per voxel edge are missing or out of range; subsample:1 to "
-                     "subsample:64; write for example subsample:4");
-  } else if (parts[0] == "divided" || parts[0] == "kernel") {
-    throw InputError("--method: " + text +
-                     " is not in this version; exact, centre or subsample:N; use exact");
-  } else {
-    throw InputError("--method: " + text + " is no method; exact, centre or subsample:N; use exact");
-  }
-}
-
-void read_overlap(const std::string& text) {
-  if (text == "sum") return;
-  if (text == "union") throw InputError("--overlap: union is not in this version; sum; leave the option out");
-  throw InputError("--overlap: " + text + " is not known; sum; leave the option out");
-}
-
 void read_periodic(const std::string& text, VoidsOptions& options) {
   for (const char c : text) {
     if (c < 'x' || c > 'z') {
@@ -122,6 +94,21 @@ void read_columns(const std::string& text, VoidsOptions& options) {
   }
 }
 
+void read_contours(const std::string& text, VoidsOptions& options) {
+  options.contours.clear();
+  for (const auto& part : parts_of(text, ',')) {
+    double level = 0;
+    const auto [end, error] = std::from_chars(part.data(), part.data() + part.size(), level);
+    if (error != std::errc() || end != part.data() + part.size() || !(level > 0 && level < 1)) {
+      throw InputError(
+          "--contours: " + part +
+          " is no level of void fraction; numbers between 0 and 1, separated by commas; write for "
+          "example 0.4,0.5,0.6");
+    }
+    options.contours.push_back(level);
+  }
+}
+
 void read_inputs(const VoidsWords& words, VoidsOptions& options, std::vector<std::string>& errors) {
   std::map<std::string, std::string> by_stem;
   for (const auto& input : words.inputs) {
@@ -160,8 +147,12 @@ VoidsOptions read_voids_options(const VoidsWords& words) {
   attempt(true, [&] { options.voxel = positive(words.voxel, Dimension::length, "--voxel"); });
   attempt(!words.box.empty(), [&] { options.box = scene::parse_box(words.box, "--box"); });
   attempt(true, [&] { read_periodic(words.periodic, options); });
-  attempt(true, [&] { read_method(words.method, options); });
-  attempt(true, [&] { read_overlap(words.overlap); });
+  attempt(true, [&] { read_method(words.method, options.method); });
+  attempt(true, [&] {
+    read_overlap(words.overlap, options.method);
+    check_together(options.method);
+  });
+  options.method.scales = words.scales;
   attempt(!words.average.empty(),
           [&] { options.average = positive(words.average, Dimension::length, "--average"); });
   for (const auto& slice : words.slices) {
@@ -191,6 +182,8 @@ VoidsOptions read_voids_options(const VoidsWords& words) {
   });
   attempt(true, [&] { read_frame(words.frame, options); });
   attempt(!words.columns.empty(), [&] { read_columns(words.columns, options); });
+  attempt(true, [&] { options.formats = figures::parse_formats(words.figures, "--figures"); });
+  attempt(!words.contours.empty(), [&] { read_contours(words.contours, options); });
   if (!words.walls.empty()) {
     errors.emplace_back(
         "--walls: STL walls are not in this version; walls of a trajectory are taken along by "

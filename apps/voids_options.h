@@ -9,6 +9,8 @@
 #include <vector>
 
 #include "apps/command.h"
+#include "apps/voids_method.h"
+#include "coupling/figures/formats.h"
 #include "coupling/io/particle_reader.h"
 #include "coupling/scene/scene.h"
 #include "voxel/field.h"
@@ -19,9 +21,9 @@ namespace interstice::apps {
 struct VoidsWords {
   std::vector<std::string> inputs;
   std::string output, voxel, box, periodic, method = "exact", overlap = "sum", average, layers, density,
-                                            length_unit, frame = "last", columns;
+                                            length_unit, frame = "last", columns, figures = "png", contours;
   std::vector<std::string> walls, slices, lines;
-  bool overwrite = false, no_figures = false;
+  bool overwrite = false, no_figures = false, scales = false;
   ComputeOptions compute;
 };
 
@@ -34,8 +36,7 @@ struct VoidsOptions {
   double voxel = 0;        // edge [m]
   std::optional<Box> box;  // [m]
   std::array<bool, 3> periodic{false, false, false};
-  voxel::Method method = voxel::Method::exact;
-  int subsample = 0;
+  MethodOptions method;
   double average = 0;  // [m]
   std::vector<scene::Slice> slices;
   std::vector<scene::Line> lines;
@@ -49,6 +50,8 @@ struct VoidsOptions {
   std::int64_t frame = 0;  // for Frames::one
   io::ReaderOptions reader;
   bool overwrite = false, figures = true;
+  figures::Formats formats;
+  std::vector<double> contours{0.4, 0.5, 0.6};  // of the averaged void fraction, on slices
 };
 
 /// Throws InputError with every error found, one line each.

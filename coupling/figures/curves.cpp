@@ -13,7 +13,7 @@
 namespace interstice::figures {
 namespace {
 
-constexpr double left = 170, top_margin = 70, gap = 16, panel_head = 40, foot = 84, note_height = 40;
+constexpr double left = 110, top_margin = 62, gap = 16, panel_head = 38, foot = 72;
 constexpr double legend_size = 14;
 
 struct Range {
@@ -39,6 +39,9 @@ void check(const std::vector<CurveFigure>& panels) {
       throw InputError(fmt::format("y range {} to {}: the first must be the smaller", panel.y_range->first,
                                    panel.y_range->second));
     }
+    if (panel.log_y && !(panel.y_range && panel.y_range->first > 0)) {
+      throw InputError("a logarithmic axis needs a y range above zero");
+    }
   }
 }
 
@@ -48,6 +51,10 @@ Range x_range(const std::vector<CurveFigure>& panels) {
   for (const auto& panel : panels) {
     for (const auto& curve : panel.curves) {
       for (const double x : curve.x) range.include(x);
+      if (!curve.steps || curve.x.size() < 2) continue;
+      const double half = 0.5 * (curve.x[1] - curve.x[0]);  // of a bin
+      range.include(curve.x.front() - half);
+      range.include(curve.x.back() + half);
     }
   }
   if (range.empty()) return {0, 1};
@@ -90,7 +97,7 @@ double legend_width(const std::vector<CurveFigure>& panels) {
   for (const auto& panel : panels) {
     for (const auto& curve : panel.curves) widest = std::max(widest, text_width(curve.name, legend_size));
   }
-  return widest > 0 ? std::min(widest, 420.0) + 80 : 30;
+  return widest > 0 ? std::min(widest, 300.0) + 62 : 30;
 }
 
 struct Layout {
@@ -98,9 +105,9 @@ struct Layout {
   std::vector<Frame> frames;
 };
 
-Layout laid_out(const std::vector<CurveFigure>& panels, bool marks, bool note) {
+Layout laid_out(const std::vector<CurveFigure>& panels, bool marks, const std::string& note) {
   Layout layout;
-  const double height = panels.size() == 1 ? 640 : panels.size() == 2 ? 430 : panels.size() == 3 ? 330 : 260;
+  const double height = panels.size() == 1 ? 470 : panels.size() == 2 ? 320 : panels.size() == 3 ? 250 : 200;
   const double width = layout.canvas.width - left - legend_width(panels);
   double y = top_margin + (marks ? 30 : 0);
   for (std::size_t i = 0; i < panels.size(); ++i) {
@@ -108,7 +115,7 @@ Layout laid_out(const std::vector<CurveFigure>& panels, bool marks, bool note) {
     layout.frames.push_back({left, y, width, height});
     y += height;
   }
-  layout.canvas.height = y + foot + (note ? note_height : 0);
+  layout.canvas.height = y + foot + foot_note_height(layout.canvas, left, note);
   return layout;
 }
 
@@ -132,17 +139,22 @@ std::string data_of(const std::vector<CurveFigure>& panels) {
 
 /// A line, with some ten marks on it so that curves stay apart in grey; on curves of few points every point
 /// is marked.
-std::string curve_of(const Curve& curve, std::size_t index, std::size_t block) {
+std::string curve_of(const Curve& curve, std::size_t index, std::size_t block, double below_axis) {
   const std::size_t points = curve.x.size();
   const std::size_t every = points <= 40 ? 1 : points / 10;
   // Curves of many points are mostly noise: thinner lines, and no mark at the same place twice.
   const double line = points > 400 ? 1.1 : 1.7;
+  if (curve.steps) {
+    return fmt::format(
+        "data index {0} using 1:(($2)>0?($2):{1:g}) with histeps lc rgb '{2}' lw 1.7 dt {3} title {4}", block,
+        below_axis, curve_colour(index), index % 2 == 0 ? "solid" : "(10,4)", text_literal(curve.name));
+  }
   return fmt::format(
       "data index {0} using 1:2 with lines lc rgb '{1}' lw {2} notitle, "
       "data index {0} every {3}::{4} using 1:2 with points lc rgb '{1}' pt {5} ps 1.5 lw 1.2 notitle, "
       "NaN with linespoints lc rgb '{1}' lw 1.8 pt {5} ps 1.5 title {6}",
       block, curve_colour(index), line, every, every > 1 ? (index * every / 3) % every : 0,
-      curve_point_type(index), string_literal(curve.name));
+      curve_point_type(index), text_literal(curve.name));
 }
 
 /// Vertical lines through every panel; their labels above the first, raised where they would touch.
@@ -178,11 +190,16 @@ std::string panel_of(const std::vector<CurveFigure>& panels, std::size_t p, cons
   for (const auto& each : panels) x_label = each.x_label.empty() ? x_label : each.x_label;
 
   std::string commands = place(layout.canvas, frame);
-  commands += fmt::format("set yrange [{:.9g}:{:.9g}]; set ytics {:g}\n", y.lo, y.hi,
-                          tick_step(y.hi - y.lo, std::max(2, static_cast<int>(frame.height / 45))));
-  commands +=
-      fmt::format("set ylabel {} offset -1\n", string_literal(wrapped(panel.y_label, 15, frame.height)));
-  commands += last ? fmt::format("set format x '%g'; set xlabel {}\n", string_literal(x_label))
+  if (panel.log_y) {
+    commands += fmt::format("set logscale y; set yrange [{:.9g}:{:.9g}]; set ytics 10\n", y.lo, y.hi);
+  } else {
+    commands += fmt::format("unset logscale y; set yrange [{:.9g}:{:.9g}]; set ytics {:g}\n", y.lo, y.hi,
+                            tick_step(y.hi - y.lo, std::max(2, static_cast<int>(frame.height / 45))));
+  }
+  // Not gnuplot's own label, which long numbers on the axis push over the edge.
+  commands += write(layout.canvas, {24, frame.top + 0.5 * frame.height,
+                                    wrapped(panel.y_label, 15, frame.height), 15, "center rotate"});
+  commands += last ? fmt::format("set format x '%g'; set xlabel {}\n", text_literal(x_label))
                    : "set format x ''; unset xlabel\n";
   if (p > 0) commands += write(layout.canvas, {left, frame.top - 16, panel.title, 15, "left"});
   commands += marks_of(panel, layout, frame, x, p == 0);
@@ -195,7 +212,8 @@ std::string panel_of(const std::vector<CurveFigure>& panels, std::size_t p, cons
                      : "unset key\n";
   commands += "plot ";
   for (std::size_t c = 0; c < panel.curves.size(); ++c) {
-    commands += (c > 0 ? ", \\\n     " : "") + curve_of(panel.curves[c], c, first_block + c);
+    commands += (c > 0 ? ", \\\n     " : "") +
+                curve_of(panel.curves[c], c, first_block + c, panel.log_y ? 0.1 * y.lo : 0);
   }
   if (panel.curves.empty()) commands += "NaN notitle";
   return commands + "\nunset label; unset arrow\n";
@@ -203,27 +221,27 @@ std::string panel_of(const std::vector<CurveFigure>& panels, std::size_t p, cons
 
 }  // namespace
 
-void write_curves(const std::filesystem::path& png, const std::vector<CurveFigure>& panels) {
+void write_curves(const std::filesystem::path& png, const std::vector<CurveFigure>& panels,
+                  const Formats& formats) {
   check(panels);
   std::string note;
   for (const auto& panel : panels) note = panel.note.empty() ? note : panel.note;
-  const auto layout = laid_out(panels, !panels.front().marks.empty(), !note.empty());
+  const auto layout = laid_out(panels, !panels.front().marks.empty(), note);
   const Range x = x_range(panels);
   std::string script =
       fmt::format("set xrange [{:.9g}:{:.9g}]; set xtics {:g}\n", x.lo, x.hi, tick_step(x.hi - x.lo, 10));
   script +=
       "set tics out nomirror font ',14' scale 0.6; set border 3 lw 1.1; set format y '%g'\n"
       "set grid lc rgb '#e4e4e4' lw 0.8 lt 1\nset multiplot\n";
-  script += write(layout.canvas, {left, 30, panels.front().title, 19, "left"});
-  script += write(layout.canvas, {left, layout.canvas.height - 22, note, 12, "left tc rgb '#404040'"});
+  script += headline(layout.canvas, left, panels.front().title);
+  script += foot_note(layout.canvas, left, note);
   std::size_t block = 0;
   for (std::size_t p = 0; p < panels.size(); ++p) {
     script += panel_of(panels, p, layout, x, block);
     block += panels[p].curves.size();
   }
   script += "unset multiplot\n";
-  draw(png, {static_cast<int>(layout.canvas.width), static_cast<int>(layout.canvas.height), data_of(panels),
-             script});
+  draw(png, {layout.canvas.width, layout.canvas.height, data_of(panels), script, formats});
 }
 
 }  // namespace interstice::figures

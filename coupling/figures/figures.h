@@ -1,7 +1,7 @@
-// Figures as PNG through gnuplot; beside each figure its data and the script that drew it (FIGURE.gp,
-// FIGURE.dat). Every write_* makes the folder it needs, throws InputError where the figure itself makes no
-// sense (nothing to draw, a range that is none) and RunError where it cannot be drawn (gnuplot missing or
-// failing, a folder that cannot be written). See docs/FIGURES.md.
+// Figures as PNG (and PDF, SVG) through gnuplot; beside each figure its data and the script that drew it
+// (FIGURE.gp, FIGURE.dat). Every write_* makes the folder it needs, throws InputError where the figure itself
+// makes no sense (nothing to draw, a range that is none) and RunError where it cannot be drawn (gnuplot
+// missing or failing, a folder that cannot be written). See docs/FIGURES.md.
 #pragma once
 
 #include <filesystem>
@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "coupling/figures/formats.h"
 #include "coupling/io/particle_frame.h"
 #include "voxel/sample.h"
 
@@ -28,21 +29,23 @@ struct SliceFigure {
   std::string note;  // printed small: voxel, averaging length, method
   std::vector<SlicePanel> panels;
   double lo = 0, hi = 1;
-  std::vector<double> contours;  // levels drawn as lines; empty: none
+  std::vector<double> contours;  // levels drawn as lines, on averaged panels where there are any
   std::string colour_label = "void fraction";
   bool diverging = false;  // for differences: two-sided palette, white in the middle of [lo, hi]
 };
-void write_slices(const std::filesystem::path& png, const SliceFigure& figure);
+void write_slices(const std::filesystem::path& png, const SliceFigure& figure, const Formats& formats = {});
 
 /// Curves over a common axis.
 struct Curve {
   std::string name;
   std::vector<double> x, y;  // NaN breaks the line
+  bool steps = false;        // a histogram's outline: x are the middles of its bins
 };
 struct CurveFigure {
   std::string title, x_label, y_label, note;
   std::vector<Curve> curves;
   std::optional<std::pair<double, double>> y_range;
+  bool log_y = false;  // needs a y_range above zero
   struct Mark {
     double x;
     std::string label;
@@ -51,7 +54,8 @@ struct CurveFigure {
 };
 /// `panels` stacked one above the other, sharing their x axis. The first panel's title heads the figure, the
 /// titles of the others their panels; the last non-empty x label and note are printed once, below.
-void write_curves(const std::filesystem::path& png, const std::vector<CurveFigure>& panels);
+void write_curves(const std::filesystem::path& png, const std::vector<CurveFigure>& panels,
+                  const Formats& formats = {});
 
 enum class GrainView { above, side };  // seen along -z, along +y
 enum class GrainColour { diameter, speed, layer };
@@ -65,8 +69,18 @@ struct GrainFigure {
 };
 /// Grains as discs to scale, farther ones first, walls as outlines. A long thin window is cut into rows, one
 /// below the other, so that single grains can still be told apart.
-void write_grains(const std::filesystem::path& png, const io::ParticleFrame& frame,
-                  const GrainFigure& figure);
+void write_grains(const std::filesystem::path& png, const io::ParticleFrame& frame, const GrainFigure& figure,
+                  const Formats& formats = {});
+
+/// A quantity over place and time, one row of cells a moment.
+struct MapFigure {
+  std::string title, x_label, y_label, colour_label, note;
+  std::vector<double> x;                    // the cells' centres, equally spaced
+  std::vector<double> y;                    // moments, rising; rows reach to half way between them
+  std::vector<std::vector<double>> values;  // [row][column]; NaN stays blank
+  double lo = 0, hi = 1;
+};
+void write_map(const std::filesystem::path& png, const MapFigure& figure, const Formats& formats = {});
 
 /// True when gnuplot is found on PATH. Where it is not, callers skip their figures and say so once.
 bool plotting_available();

@@ -3,8 +3,11 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <cctype>
 #include <chrono>
+#include <cmath>
 #include <fstream>
+#include <vector>
 
 #include "base/error.h"
 #include "coupling/figures/figures.h"
@@ -16,6 +19,11 @@ namespace {
 
 constexpr std::chrono::seconds patience{60};
 constexpr const char* program = "gnuplot";
+
+struct Kind {
+  const char* name;
+  bool (*is_whole)(const std::filesystem::path&);
+};
 
 /// gnuplot echoes the faulty line and a caret before it says what is wrong: the line with "line N:" says it.
 std::string first_error_line(const std::string& errors) {
@@ -43,6 +51,17 @@ bool is_whole_png(const std::filesystem::path& path) {
   return file.read(tail.data(), tail.size()) && std::string_view(tail.data(), 4) == "IEND";
 }
 
+/// The other kinds end with a line of their own.
+bool ends_with(const std::filesystem::path& path, std::string_view mark) {
+  std::ifstream file(path, std::ios::binary);
+  std::string tail(mark.size() + 2, '\0');
+  if (!file.seekg(-static_cast<std::streamoff>(tail.size()), std::ios::end)) return false;
+  return file.read(tail.data(), static_cast<std::streamsize>(tail.size())) &&
+         tail.find(mark) != std::string::npos;
+}
+bool is_whole_pdf(const std::filesystem::path& path) { return ends_with(path, "%%EOF"); }
+bool is_whole_svg(const std::filesystem::path& path) { return ends_with(path, "</svg>"); }
+
 /// For comments, which end where the line does.
 std::string on_one_line(std::string text) {
   for (char& c : text) {
@@ -51,18 +70,60 @@ std::string on_one_line(std::string text) {
   return text;
 }
 
+// The layout's unit in pixels and in centimetres: a full width is 1600 px on the screen and 16.5 cm in print,
+// where axis labels are then 7 pt high.
+constexpr double units_of_width = 1100, pixels_per_unit = 1600 / units_of_width,
+                 cm_per_unit = 16.5 / units_of_width;
+
+// Fonts and lines scale with the canvas, so that all kinds look alike.
+std::string terminals(const Drawing& drawing) {
+  const double points_per_unit = cm_per_unit / 2.54 * 72, letters = 1.16;  // units a point of the layout
+  const long width = std::lround(drawing.width * pixels_per_unit),
+             height = std::lround(drawing.height * pixels_per_unit);
+  return fmt::format(
+      "if (kind eq 'png') set terminal pngcairo noenhanced size {0},{1} font 'DejaVu Sans,15' fontscale "
+      "{2:.4f} "
+      "linewidth {3:.3f} pointscale {2:.3f} background '#ffffff'\n"
+      "if (kind eq 'pdf') set terminal pdfcairo noenhanced size {4:.2f}cm,{5:.2f}cm font 'DejaVu Sans,15' "
+      "fontscale {6:.4f} linewidth {7:.3f} pointscale {7:.3f} background '#ffffff'\n"
+      "if (kind eq 'svg') set terminal svg noenhanced size {0},{1} dynamic font 'DejaVu Sans,15' "
+      "fontscale {8:.4f} linewidth {3:.3f} background '#ffffff'\n",
+      width, height, 0.75 * letters * pixels_per_unit, 1.3 * pixels_per_unit, drawing.width * cm_per_unit,
+      drawing.height * cm_per_unit, letters * points_per_unit, 2 * points_per_unit,
+      letters * pixels_per_unit);
+}
+
 // Names begin with ./ because gnuplot takes a leading < or | for a command to run.
 std::string script_head(const std::string& stem, const Drawing& drawing) {
   return fmt::format(
       "# Draws {0}.png from {0}.dat. To draw it again: gnuplot {0}.gp   (in this folder)\n"
+      "# As a vector graphic: gnuplot -e \"kind='pdf'; target='{0}.pdf'\" {0}.gp   (or svg)\n"
+      "if (!exists('kind')) kind = 'png'\n"
       "if (!exists('target')) target = {1}\n"
       "data = {2}\n"
       "set encoding utf8\n"
-      "set terminal pngcairo noenhanced size {3},{4} font 'DejaVu Sans,15' linewidth 1.6 background "
-      "'#ffffff'\n"
-      "set output target\n",
+      "{3}set output target\n",
       on_one_line(stem), string_literal("./" + stem + ".png"), string_literal("./" + stem + ".dat"),
-      drawing.width, drawing.height);
+      terminals(drawing));
+}
+
+// Beside its place first, so that no half picture stands under the name.
+void draw_kind(const Kind& kind, const std::filesystem::path& gnuplot, const std::filesystem::path& folder,
+               const std::string& stem) {
+  io::write_atomically(
+      folder / fmt::format("{}.{}", stem, kind.name), [&](const std::filesystem::path& target) {
+        // --default-settings: a user's own start-up file must not change what a figure looks like.
+        const std::string settings = fmt::format("kind = '{}'; target = {}", kind.name,
+                                                 string_literal("./" + target.filename().string()));
+        const auto result = run_process(gnuplot, {"--default-settings", "-e", settings, "./" + stem + ".gp"},
+                                        folder, patience);
+        if (result.timed_out) throw RunError(fmt::format("gnuplot took more than {} s", patience.count()));
+        if (result.status != 0) throw RunError("gnuplot: " + first_error_line(result.errors));
+        if (!kind.is_whole(target)) {
+          throw RunError(
+              fmt::format("gnuplot left no whole {}: {}", kind.name, first_error_line(result.errors)));
+        }
+      });
 }
 
 void make_folder(const std::filesystem::path& folder) {
@@ -88,6 +149,28 @@ std::string string_literal(std::string_view text) {
   return result + "'";
 }
 
+std::string text_literal(std::string_view text) {
+  std::string printed;
+  const auto is_letter = [&](std::size_t at) {
+    return at < text.size() && std::isalpha(static_cast<unsigned char>(text[at])) != 0;
+  };
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const bool begins = i == 0 || !is_letter(i - 1);
+    const bool micro = begins && text[i] == 'u' && i + 1 < text.size() &&
+                       std::string_view("mNsJ").find(text[i + 1]) != std::string_view::npos &&
+                       !is_letter(i + 2);
+    const bool after_m = i > 0 && text[i - 1] == 'm' && i + 1 < text.size();
+    if (micro) {
+      printed += "µ";
+    } else if (text[i] == '^' && after_m && (text[i + 1] == '2' || text[i + 1] == '3')) {
+      printed += text[++i] == '2' ? "²" : "³";
+    } else {
+      printed += text[i];
+    }
+  }
+  return string_literal(printed);
+}
+
 void draw(const std::filesystem::path& png, const Drawing& drawing) {
   const auto gnuplot = find_program(program);
   if (!gnuplot) {
@@ -100,17 +183,10 @@ void draw(const std::filesystem::path& png, const Drawing& drawing) {
   io::write_text_atomically(folder / (stem + ".dat"), drawing.data);
   io::write_text_atomically(script, script_head(stem, drawing) + drawing.script);
 
-  io::write_atomically(folder / (stem + ".png"), [&](const std::filesystem::path& target) {
-    // --default-settings: a user's own start-up file must not change what a figure looks like.
-    const std::string set_target = "target = " + string_literal("./" + target.filename().string());
-    const auto result =
-        run_process(*gnuplot, {"--default-settings", "-e", set_target, "./" + script.filename().string()},
-                    folder, patience);
-    if (result.timed_out) throw RunError(fmt::format("gnuplot took more than {} s", patience.count()));
-    if (result.status != 0) throw RunError("gnuplot: " + first_error_line(result.errors));
-    if (!is_whole_png(target))
-      throw RunError("gnuplot left no whole PNG: " + first_error_line(result.errors));
-  });
+  std::vector<Kind> kinds{{"png", is_whole_png}};
+  if (drawing.formats.pdf) kinds.push_back({"pdf", is_whole_pdf});
+  if (drawing.formats.svg) kinds.push_back({"svg", is_whole_svg});
+  for (const Kind& kind : kinds) draw_kind(kind, *gnuplot, folder, stem);
 }
 
 bool plotting_available() { return find_program(program).has_value(); }

@@ -14,8 +14,8 @@
 namespace interstice::figures {
 namespace {
 
-constexpr double left = 130, right = 200, top = 76, row_gap = 52, foot = 76, note_height = 40;
-constexpr double full_width = 1600 - left - right;
+constexpr double left = 100, right = 165, top = 66, row_gap = 48, foot = 66;
+constexpr double full_width = Canvas{}.width - left - right;
 
 /// The figure's axes: what runs right, what runs up, what runs away from the eye (and whether far is low or
 /// high).
@@ -101,7 +101,7 @@ int rows_for(const Extent& window) {
   if (aspect <= 6) return 1;
   int rows = 1;
   for (int r = 2; r <= 6; ++r) {
-    if (r * (r * full_width / aspect + row_gap) <= 1350) rows = r;
+    if (r * (r * full_width / aspect + row_gap) <= 950) rows = r;
   }
   return rows;
 }
@@ -113,11 +113,11 @@ struct Layout {
   LengthUnit unit;
 };
 
-Layout laid_out(const Extent& window, bool note) {
+Layout laid_out(const Extent& window, const std::string& note) {
   Layout layout;
   const int rows = rows_for(window);
   const double part = window.width() / rows;
-  const double width = std::min(full_width, 1000 * part / window.height());
+  const double width = std::min(full_width, 700 * part / window.height());
   const double height = std::max(30.0, width * window.height() / part);
   layout.unit = length_unit(window.width());
   for (int r = 0; r < rows; ++r) {
@@ -125,8 +125,9 @@ Layout laid_out(const Extent& window, bool note) {
     layout.parts.push_back(
         {{window.lo[0] + r * part, window.lo[1]}, {window.lo[0] + (r + 1) * part, window.hi[1]}});
   }
-  layout.canvas.width = std::max(1000.0, left + width + right);
-  layout.canvas.height = layout.frames.back().top + height + foot + (note ? note_height : 0);
+  layout.canvas.width = std::max(700.0, left + width + right);
+  layout.canvas.height =
+      layout.frames.back().top + height + foot + foot_note_height(layout.canvas, left, note);
   return layout;
 }
 
@@ -153,7 +154,7 @@ std::string row_of(const io::ParticleFrame& frame, const Layout& layout, std::si
   for (std::size_t k = 0; k < 2; ++k) {
     const double lo = part.lo[k] * scale, hi = part.hi[k] * scale;
     const double pixels = k == 0 ? place_of.width : place_of.height;
-    const double step = tick_step(hi - lo, std::clamp(static_cast<int>(pixels / (k == 0 ? 110 : 45)), 1, 12));
+    const double step = tick_step(hi - lo, std::clamp(static_cast<int>(pixels / (k == 0 ? 90 : 45)), 1, 12));
     commands +=
         fmt::format("set {0}range [{1:.8g}:{2:.8g}]; set {0}tics {3:g}\n", k == 0 ? "x" : "y", lo, hi, step);
   }
@@ -180,8 +181,8 @@ std::string colour_axis(const Colouring& colour) {
 
 }  // namespace
 
-void write_grains(const std::filesystem::path& png, const io::ParticleFrame& frame,
-                  const GrainFigure& figure) {
+void write_grains(const std::filesystem::path& png, const io::ParticleFrame& frame, const GrainFigure& figure,
+                  const Formats& formats) {
   const Vec3d size = figure.window.size();
   if (!(size.x > 0 && size.y > 0 && size.z > 0)) throw InputError("the window to show grains in is empty");
   const Sight sight = sight_of(figure.view);
@@ -189,21 +190,21 @@ void write_grains(const std::filesystem::path& png, const io::ParticleFrame& fra
                       {figure.window.hi[sight.axes[0]], figure.window.hi[sight.axes[1]]}};
   const auto shown = far_to_near(frame, figure, sight);
   const Colouring colour = colouring(frame, figure, shown);
-  const Layout layout = laid_out(window, !figure.note.empty());
+  const Layout layout = laid_out(window, figure.note);
 
   std::string script = colour_axis(colour);
   script +=
       "unset key; set tics out nomirror font ',14' scale 0.6; set border lw 1.1; set format '%g'\n"
       "set multiplot\n";
-  script += write(layout.canvas, {left, 30, figure.title, 19, "left"});
-  script += write(layout.canvas, {left, layout.canvas.height - 22, figure.note, 12, "left tc rgb '#404040'"});
+  script += headline(layout.canvas, left, figure.title);
+  script += foot_note(layout.canvas, left, figure.note);
   const double bottom = layout.frames.back().top + layout.frames.back().height;
-  const Frame bar{layout.canvas.width - right + 40, top, 26, std::clamp(bottom - top, 120.0, 560.0)};
+  const Frame bar{layout.canvas.width - right + 34, top, 22, std::clamp(bottom - top, 120.0, 560.0)};
   script += colour_bar(layout.canvas, bar, colour.label);
   for (std::size_t r = 0; r < layout.parts.size(); ++r) script += row_of(frame, layout, r, sight);
   script += "unset multiplot\n";
-  draw(png, {static_cast<int>(layout.canvas.width), static_cast<int>(layout.canvas.height),
-             data_of(frame, shown, sight, colour, layout.unit.per_metre), script});
+  draw(png, {layout.canvas.width, layout.canvas.height,
+             data_of(frame, shown, sight, colour, layout.unit.per_metre), script, formats});
 }
 
 }  // namespace interstice::figures

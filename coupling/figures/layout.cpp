@@ -82,7 +82,7 @@ std::string place(const Canvas& canvas, const Frame& frame) {
 
 std::string write(const Canvas& canvas, const Text& text) {
   return fmt::format("set label {} at screen {:.5f}, screen {:.5f} {} font ',{:g}'\n",
-                     string_literal(text.text), canvas.across(text.x), canvas.up(text.y), text.options,
+                     text_literal(text.text), canvas.across(text.x), canvas.up(text.y), text.options,
                      text.size);
 }
 
@@ -91,7 +91,29 @@ std::string colour_bar(const Canvas& canvas, const Frame& frame, std::string_vie
       "set colorbox vertical user origin screen {:.5f}, screen {:.5f} size screen {:.5f}, screen {:.5f}\n"
       "set cblabel {} font ',15' offset 1.2\n",
       canvas.across(frame.left), canvas.up(frame.top + frame.height), frame.width / canvas.width,
-      frame.height / canvas.height, string_literal(label));
+      frame.height / canvas.height, text_literal(label));
+}
+
+std::string headline(const Canvas& canvas, double left, const std::string& text) {
+  const double size = 18, width = text_width(text, size), room = canvas.width - left - 10;
+  return write(canvas, {left, 30, text, width > room ? std::max(9.0, size * room / width) : size, "left"});
+}
+
+namespace {
+constexpr double note_size = 12, note_line = 19, note_margin = 26;
+}
+
+double foot_note_height(const Canvas& canvas, double left, const std::string& text) {
+  if (text.empty()) return 0;
+  const std::string lines = wrapped(text, note_size, canvas.width - left - 10);
+  return note_margin + note_line * static_cast<double>(1 + std::count(lines.begin(), lines.end(), '\n'));
+}
+
+std::string foot_note(const Canvas& canvas, double left, const std::string& text) {
+  if (text.empty()) return "";
+  return write(canvas,
+               {left, canvas.height - foot_note_height(canvas, left, text) + note_line,
+                wrapped(text, note_size, canvas.width - left - 10), note_size, "left tc rgb '#404040'"});
 }
 
 LengthUnit length_unit(double extent) {
@@ -111,7 +133,7 @@ double text_width(std::string_view text, double size) {
   std::size_t letters = 0;
   for (const char c : text)
     letters += (static_cast<unsigned char>(c) & 0xC0) != 0x80;  // UTF-8: count lead bytes
-  return static_cast<double>(letters) * size * 0.76;
+  return static_cast<double>(letters) * size * 0.72;
 }
 
 std::string wrapped(std::string_view text, double size, double room) {

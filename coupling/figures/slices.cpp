@@ -13,8 +13,8 @@
 namespace interstice::figures {
 namespace {
 
-constexpr double left = 140, right = 215, top = 70, panel_head = 44, foot = 74, note_height = 40;
-constexpr double full_width = 1600 - left - right;
+constexpr double left = 110, right = 165, top = 56, panel_head = 40, foot = 66;
+constexpr double full_width = Canvas{}.width - left - right;
 constexpr const char* axis_names = "xyz";
 
 /// One panel, its geometry worked out: h is the horizontal axis, v the vertical one.
@@ -108,7 +108,7 @@ Panel geometry(const SlicePanel& source) {
 std::vector<Panel> stacked(const SliceFigure& figure, Canvas& canvas) {
   std::vector<Panel> panels;
   for (const auto& source : figure.panels) panels.push_back(geometry(source));
-  const double tallest = panels.size() == 1 ? 900 : panels.size() <= 3 ? 460 : 340;
+  const double tallest = panels.size() == 1 ? 640 : panels.size() <= 3 ? 340 : 260;
   double y = top, widest = 0;
   for (std::size_t i = 0; i < panels.size(); ++i) {
     Panel& panel = panels[i];
@@ -122,8 +122,8 @@ std::vector<Panel> stacked(const SliceFigure& figure, Canvas& canvas) {
     y = panel.frame.top + panel.frame.height + (panel.shares_axis_with_next ? 8 : foot);
     widest = std::max(widest, width);
   }
-  canvas.width = std::max(1000.0, left + widest + right);
-  canvas.height = y + (figure.note.empty() ? 6 : note_height);
+  canvas.width = std::max(700.0, left + widest + right);
+  canvas.height = y + (figure.note.empty() ? 6 : foot_note_height(canvas, left, figure.note));
   return panels;
 }
 
@@ -148,6 +148,30 @@ std::string data_of(const SliceFigure& figure, const std::vector<Panel>& panels)
   return data;
 }
 
+/// Lines through a field of single voxels follow every grain; they are drawn on averages where there are any.
+bool contoured(const SliceFigure& figure, const Panel& panel) {
+  const bool any =
+      std::any_of(figure.panels.begin(), figure.panels.end(), [](auto& p) { return p.averaged; });
+  return !figure.contours.empty() && (panel.source->averaged || !any);
+}
+
+/// The levels of the lines, marked on the colour bar in the lines' own colours.
+std::string level_marks(const SliceFigure& figure, const Canvas& canvas, const Frame& bar) {
+  std::string commands;
+  for (const double level : figure.contours) {
+    if (!(level > figure.lo && level < figure.hi)) continue;
+    const double y = bar.top + bar.height * (figure.hi - level) / (figure.hi - figure.lo);
+    for (const char* line : {"'#000000' lw 1.8", "'#ffffff' lw 0.8"}) {
+      commands += fmt::format(
+          "set arrow from screen {0:.5f}, screen {2:.5f} to screen {1:.5f}, screen {2:.5f} nohead front lc "
+          "rgb "
+          "{3}\n",
+          canvas.across(bar.left), canvas.across(bar.left + bar.width), canvas.up(y), line);
+    }
+  }
+  return commands;
+}
+
 /// Contour lines are worked out before the panels are drawn, into data blocks of gnuplot's own.
 std::string contour_tables(const SliceFigure& figure, const std::vector<Panel>& panels) {
   if (figure.contours.empty()) return "";
@@ -156,7 +180,7 @@ std::string contour_tables(const SliceFigure& figure, const std::vector<Panel>& 
     levels += fmt::format("{}{:g}", levels.empty() ? "" : ",", level);
   std::string commands = "set contour base; unset surface; set cntrparam levels discrete " + levels + "\n";
   for (std::size_t i = 0; i < panels.size(); ++i) {
-    if (panels[i].n[0] < 2 || panels[i].n[1] < 2) continue;
+    if (panels[i].n[0] < 2 || panels[i].n[1] < 2 || !contoured(figure, panels[i])) continue;
     const Extent& e = panels[i].extent;
     const Point scale = panels[i].scale();
     // Ranges are given, for gnuplot refuses to find its own where no cell has a value.
@@ -175,18 +199,18 @@ std::string axes_of(const Panel& panel) {
   for (std::size_t k = 0; k < 2; ++k) {
     const char* name = k == 0 ? "x" : "y";
     const double lo = panel.extent.lo[k] * scale[k], hi = panel.extent.hi[k] * scale[k];
-    const double room = k == 0 ? panel.frame.width / 110 : panel.frame.height / 45;
+    const double room = k == 0 ? panel.frame.width / 90 : panel.frame.height / 45;
     const double step = tick_step(hi - lo, std::clamp(static_cast<int>(room), 1, k == 0 ? 10 : 6));
     commands += fmt::format("set {}range [{:.8g}:{:.8g}]; set {}tics {:g}\n", name, lo, hi, name, step);
   }
   const std::string stretched = panel.stretch > 1 ? fmt::format("\nstretched {}×", panel.stretch) : "";
   commands += fmt::format(
       "set ylabel {} offset -0.5\n",
-      string_literal(fmt::format("{} [{}]{}", axis_names[panel.axes[1]], panel.unit[1].name, stretched)));
+      text_literal(fmt::format("{} [{}]{}", axis_names[panel.axes[1]], panel.unit[1].name, stretched)));
   if (panel.shares_axis_with_next) return commands + "set format x ''; unset xlabel\n";
   return commands +
          fmt::format("set format x '%g'; set xlabel {}\n",
-                     string_literal(fmt::format("{} [{}]", axis_names[panel.axes[0]], panel.unit[0].name)));
+                     text_literal(fmt::format("{} [{}]", axis_names[panel.axes[0]], panel.unit[0].name)));
 }
 
 std::string plot_of(const SliceFigure& figure, const Panel& panel, std::size_t i) {
@@ -201,7 +225,7 @@ std::string plot_of(const SliceFigure& figure, const Panel& panel, std::size_t i
     commands += fmt::format("1:2:({:.8g}):({:.8g}):3 with boxxyerror fillstyle solid 1.0 noborder lc palette",
                             0.5 * panel.cell[0] * panel.scale()[0], 0.5 * panel.cell[1] * panel.scale()[1]);
   }
-  if (grid && !figure.contours.empty()) {  // white on black: seen on every colour of the map
+  if (grid && contoured(figure, panel)) {  // white on black: seen on every colour of the map
     for (const char* line : {"'#000000' lw 1.8", "'#ffffff' lw 0.8"}) {
       commands += fmt::format(", $contours{} using 1:2 with lines lc rgb {}", i, line);
     }
@@ -217,36 +241,37 @@ std::string script_of(const SliceFigure& figure, const std::vector<Panel>& panel
   script +=
       "unset key; set tics out nomirror font ',14' scale 0.6; set border lw 1.1; set format y '%g'\n"
       "set multiplot\n";
-  script += write(canvas, {left, 30, figure.title, 19, "left"});
-  script += write(canvas, {left, canvas.height - 22, figure.note, 12, "left tc rgb '#404040'"});
+  script += headline(canvas, left, figure.title);
+  script += foot_note(canvas, left, figure.note);
   const double bar_top = panels.front().frame.top;
   const double bar_bottom = panels.back().frame.top + panels.back().frame.height;
-  const double bar_height = std::clamp(bar_bottom - bar_top, 220.0, 640.0);
-  const Frame bar{canvas.width - right + 45, std::max(bar_top, 0.5 * (bar_top + bar_bottom - bar_height)), 26,
-                  std::min(bar_height, canvas.height - bar_top - 50)};
+  const double bar_height = std::clamp(bar_bottom - bar_top, 180.0, 460.0);
+  const Frame bar{canvas.width - right + 34, std::max(bar_top, 0.5 * (bar_top + bar_bottom - bar_height)), 22,
+                  std::min(bar_height, canvas.height - bar_top - 40)};
   for (std::size_t i = 0; i < panels.size(); ++i) {
     const Panel& panel = panels[i];
     const auto& s = panel.source->samples;
     script += place(canvas, panel.frame);
     script += write(canvas, {left, panel.frame.top - 18, panel.source->title, 15, "left"});
-    script += i == 0 ? colour_bar(canvas, bar, figure.colour_label) : "unset colorbox\n";
+    script += i == 0 ? colour_bar(canvas, bar, figure.colour_label) + level_marks(figure, canvas, bar)
+                     : "unset colorbox\n";
     script += axes_of(panel);
     script += hatched(
         cut(panel.source->walls, s.normal_axis, s.center.front()[s.normal_axis], panel.axes, panel.extent),
         panel.scale());
-    script += plot_of(figure, panel, i) + "unset label; unset object\n";
+    script += plot_of(figure, panel, i) + "unset label; unset object; unset arrow\n";
   }
   return script + "unset multiplot\n";
 }
 
 }  // namespace
 
-void write_slices(const std::filesystem::path& png, const SliceFigure& figure) {
+void write_slices(const std::filesystem::path& png, const SliceFigure& figure, const Formats& formats) {
   check(figure);
   Canvas canvas;
   const auto panels = stacked(figure, canvas);
-  draw(png, {static_cast<int>(canvas.width), static_cast<int>(canvas.height), data_of(figure, panels),
-             script_of(figure, panels, canvas)});
+  draw(png,
+       {canvas.width, canvas.height, data_of(figure, panels), script_of(figure, panels, canvas), formats});
 }
 
 }  // namespace interstice::figures

@@ -222,7 +222,7 @@ TEST_F(Figures, WhatGnuplotSaysIsPassedOnAndNoPngIsLeft) {
     figures::draw(folder / "bad.png", {400, 300, "1 2\n", "set no_such_thing 3\nplot data\n"});
     FAIL() << "no error";
   } catch (const RunError& error) {
-    EXPECT_NE(std::string(error.what()).find("line 7"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("line 11"), std::string::npos) << error.what();
     EXPECT_NE(std::string(error.what()).find("bad.png"), std::string::npos) << error.what();
   }
   EXPECT_FALSE(std::filesystem::exists(folder / "bad.png"));
