@@ -95,13 +95,15 @@ std::string line_of(const std::vector<std::string>& columns, const Cells& cells)
     if (!line.empty()) line += ',';
     if (cell != cells.end()) line += cell->second;
   }
-  return line + "\n";
+  line += '\n';
+  return line;
 }
 
 std::string header_of(const std::vector<std::string>& columns) {
   std::string line;
-  for (const auto& column : columns) line += (line.empty() ? "" : ",") + csv_cell(column);
-  return line + "\n";
+  for (const auto& column : columns) line += fmt::format("{}{}", line.empty() ? "" : ",", csv_cell(column));
+  line += '\n';
+  return line;
 }
 
 }  // namespace
@@ -131,7 +133,8 @@ BatchFolder::BatchFolder(fs::path folder, BatchSetup setup)
     : folder_(std::move(folder)), setup_(std::move(setup)) {
   std::error_code error;
   if (fs::exists(folder_, error) && !fs::is_directory(folder_, error)) {
-    throw InputError(folder_.string() + ": is a file, not a folder; name another folder with -o");
+    throw InputError(
+        fmt::format("{}: is a file, not a folder; name another folder with -o", folder_.string()));
   }
   auto manifest = read_json(folder_ / manifest_name);
   if (manifest && (!manifest->is_object() || manifest->value("format", "") != format_name)) manifest.reset();
@@ -253,7 +256,8 @@ void BatchFolder::finish(const BatchFrame& frame, bool one_of_many, const Json& 
     for (const auto& cell : row.cells) columns_.push_back(cell.first);
     text = header_of(columns_);
   }
-  append(text + line_of(columns_, row.cells));
+  text += line_of(columns_, row.cells);
+  append(text);
   rows_[frame] = std::move(row);
 }
 
