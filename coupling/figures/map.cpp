@@ -63,11 +63,15 @@ std::string data_of(const MapFigure& figure, const std::vector<double>& x, const
   return data;
 }
 
-/// Evenly spaced cells make a bitmap, which has no seams. Others are boxes, each drawn a little into the
-/// next, which then covers what is too much.
+/// Evenly spaced cells make a bitmap, which has no seams but knows no blanks. Others are boxes, each drawn a
+/// little into the next, which then covers what is too much.
 std::string plot_of(const MapFigure& figure, double x_step) {
-  if (equally_spaced(figure.x) && equally_spaced(figure.y))
-    return "plot data using 1:2:3 with image pixels\n";
+  const auto has_blanks = [](const auto& row) {
+    return std::any_of(row.begin(), row.end(), [](double v) { return !std::isfinite(v); });
+  };
+  const bool blanks = std::any_of(figure.values.begin(), figure.values.end(), has_blanks);
+  if (!blanks && equally_spaced(figure.x) && equally_spaced(figure.y))
+    return "plot data using 1:2:3 with image\n";
   return fmt::format(
       "plot data using 1:2:4:($5+{:.6g}):6:($7+0.1*($7-$6)):3 with boxxyerror fillstyle solid 1.0 noborder "
       "lc palette\n",
@@ -92,8 +96,8 @@ void write_map(const std::filesystem::path& png, const MapFigure& figure, const 
   script += fmt::format(
       "set xrange [{:.9g}:{:.9g}]; set xtics {:g}; set yrange [{:.9g}:{:.9g}]; set ytics {:g}\n", x.front(),
       x.back(), tick_step(x.back() - x.front(), 9), y.front(), y.back(), tick_step(y.back() - y.front(), 10));
-  script += fmt::format("set xlabel {}; set ylabel {} offset -1\n", text_literal(figure.x_label),
-                        text_literal(figure.y_label));
+  script += fmt::format("set xlabel {}\n", text_literal(figure.x_label));
+  script += write(canvas, {24, top + 0.5 * plot_height, figure.y_label, 15, "center rotate"});
   script += plot_of(figure, x[1] - x[0]);
   draw(png, {canvas.width, canvas.height, data_of(figure, x, y), script, formats});
 }

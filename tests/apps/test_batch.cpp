@@ -143,7 +143,8 @@ TEST_F(Batch, SameFilesForAnyNumberOfThreads) {
   ASSERT_EQ(four.size(), 12u);
   for (std::size_t r = 0; r < one.size(); ++r) {
     for (std::size_t c = 0; c < one[0].size(); ++c) {
-      if (one[0][c] != "seconds") EXPECT_EQ(one[r][c], four[r][c]) << one[0][c];
+      if (one[0][c] == "seconds") continue;
+      EXPECT_EQ(one[r][c], four[r][c]) << one[0][c];
     }
   }
   for (const char* path :
@@ -265,7 +266,8 @@ TEST_F(Batch, KillsCostAtMostTheFramesInProgress) {
   ASSERT_EQ(killed.size(), calm.size());
   for (std::size_t r = 0; r < calm.size(); ++r) {
     for (std::size_t c = 0; c < calm[0].size(); ++c) {
-      if (calm[0][c] != "seconds") EXPECT_EQ(killed[r][c], calm[r][c]) << calm[0][c];
+      if (calm[0][c] == "seconds") continue;
+      EXPECT_EQ(killed[r][c], calm[r][c]) << calm[0][c];
     }
   }
   EXPECT_EQ(slurp(out() + "/a/frame_000017/fields.vti"), slurp(out("calm") + "/a/frame_000017/fields.vti"));

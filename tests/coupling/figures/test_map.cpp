@@ -25,7 +25,7 @@ figures::MapFigure map(std::size_t columns, const std::vector<double>& moments) 
   figure.y = moments;
   for (std::size_t r = 0; r < moments.size(); ++r) {
     figure.values.emplace_back(columns, 0.5);
-    figure.values.back()[0] = r == 0 ? NAN : 0.25;
+    if (columns > 0) figure.values.back()[0] = r == 0 ? NAN : 0.25;
   }
   return figure;
 }
