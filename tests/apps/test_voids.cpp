@@ -222,13 +222,22 @@ TEST_F(Voids, PeriodicBoxKeepsEveryGrainWhole) {
 }
 
 TEST_F(Voids, UnitOfLengthAndColumnsByOtherNames) {
-  std::ofstream(folder_ / "a.csv") << "px,py,pz,size\n100,100,100,20\n200,100,100,30\n";
+  std::ofstream(folder_ / "a.csv")
+      << "px,py,pz,size\n100.000,100.000,100.000,20\n200.000,100.000,100.000,30\n";
   const Outcome outcome = call((folder_ / "a.csv").string() + to_out() +
                                "--voxel 10um --length-unit um --columns x=px,y=py,z=pz,radius=size --json");
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_EQ(outcome.err, "");
   const double truth = 4e-18 * std::acos(-1.0) / 3 * (20 * 20 * 20 + 30 * 30 * 30);
   EXPECT_NEAR(Json::parse(outcome.out)["solid_volume_field_m3"].get<double>(), truth, 1e-12 * truth);
+}
+
+TEST_F(Voids, PositionsWrittenTooCoarselyAreWarnedOf) {
+  std::ofstream(folder_ / "a.csv") << "x,y,z,radius\n100,100,100,20\n200,100,100,30\n";
+  const Outcome outcome =
+      call((folder_ / "a.csv").string() + to_out() + "--voxel 10um --length-unit um --json");
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_NE(outcome.err.find("written to 1 um only"), std::string::npos) << outcome.err;
 }
 
 TEST_F(Voids, WallsOfATrajectoryAreNeitherPowderNorVoid) {
