@@ -20,6 +20,12 @@ struct SearchSpace {
   Box domain;
   std::array<bool, 3> periodic{false, false, false};
   double skin = 0;  // [m]
+
+  /// Of the domain [m]; 0 along axes that are not periodic.
+  Vec3d period() const {
+    const Vec3d length = domain.size();
+    return {periodic[0] ? length.x : 0, periodic[1] ? length.y : 0, periodic[2] ? length.z : 0};
+  }
 };
 
 /// All pairs whose surfaces are nearer than `skin`, in an order that depends on the rows' order alone.
@@ -28,16 +34,18 @@ std::vector<PairRef> find_pairs(const std::vector<GrainRow>& rows, const SearchS
 /// The same by trying every pair: the reference that find_pairs is held against.
 std::vector<PairRef> find_pairs_brute_force(const std::vector<GrainRow>& rows, const SearchSpace& space);
 
+/// The shortest of a vector's images through the periodic faces: at most one period is added or taken away
+/// along each axis; a period of 0 changes nothing.
+inline Vec3d nearest_image(const Vec3d& d, const Vec3d& period) {
+  const auto wrap = [](double x, double length) {
+    return x > 0.5 * length ? x - length : x < -0.5 * length ? x + length : x;
+  };
+  return {wrap(d.x, period.x), wrap(d.y, period.y), wrap(d.z, period.z)};
+}
+
 /// Shortest vector from b to a [m], through the periodic faces where there are any.
 inline Vec3d separation(const Vec3d& a, const Vec3d& b, const SearchSpace& space) {
-  Vec3d d = a - b;
-  for (int axis = 0; axis < 3; ++axis) {
-    if (!space.periodic[axis]) continue;
-    const double length = space.domain.hi[axis] - space.domain.lo[axis];
-    if (d[axis] > 0.5 * length) d[axis] -= length;
-    if (d[axis] < -0.5 * length) d[axis] += length;
-  }
-  return d;
+  return nearest_image(a - b, space.period());
 }
 
 }  // namespace interstice::dem

@@ -257,14 +257,6 @@ double Simulation::attraction_reach() const {
   return reach;
 }
 
-Vec3d Simulation::period() const {
-  Vec3d length{0, 0, 0};
-  for (int axis = 0; axis < 3; ++axis) {
-    if (model_.boundary[axis] == AxisBoundary::periodic) length[axis] = model_.domain.size()[axis];
-  }
-  return length;
-}
-
 void Simulation::check_periodic_lengths() const {
   double largest = 0;
   for (const GrainRow& g : rows_) largest = std::max(largest, g.radius);

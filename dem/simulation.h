@@ -77,7 +77,6 @@ class Simulation {
   /// Are the laws chosen at run time, for want of a kernel of their own?
   bool generic_kernel() const { return kernels_.generic; }
   SearchSpace search_space() const;
-  Vec3d period() const;  // of the domain [m]; 0 along axes that are not periodic
   std::int64_t rebuilds() const { return rebuilds_; }
   /// Bytes held for grains, lists and contacts.
   std::size_t bytes() const;

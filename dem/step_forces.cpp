@@ -12,7 +12,7 @@ constexpr std::size_t kPairsPerBlock = 1024;
 StepView Simulation::step_view() {
   PairContacts& p = pair_contacts_;
   return {rows_.data(),
-          period(),
+          search_space().period(),
           dt_,
           model_.slider_velocity,
           constants_.data(),

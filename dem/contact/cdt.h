@@ -11,11 +11,12 @@ inline constexpr double kCdtShare = 0.2;
 
 /// Torque on the first body, of magnitude `limit` = mu_r F_n R* against the relative spin; its part about the
 /// normal (twisting) is left out [N m]. Near rest the torque alone would reverse the spin within a step dt
-/// and chatter from then on; it is at most what stops a sphere of mass m* and radius R* [kg m] in one.
+/// and chatter from then on; it takes at most kCdtShare of the spin of a sphere of mass m* and radius R* a
+/// step.
 template <class T>
 INTERSTICE_HD inline Vec3<T> cdt_torque(const Vec3<T>& relative_spin, const Vec3<T>& normal, const T& limit,
                                         const T& effective_mass, const T& effective_radius, const T& dt) {
-  const T stopping = T(kCdtShare * 0.4) * effective_mass * square(effective_radius) / dt;  // per rad/s
+  const T stopping = T(kCdtShare * 0.4) * effective_mass * square(effective_radius) / dt;  // [N m s]
   const T speed = norm(relative_spin);
   const auto fast = speed * stopping > limit;
   const T scale = select(fast, limit / select(fast, speed, T(1)), stopping);

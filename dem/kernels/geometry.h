@@ -32,14 +32,6 @@ const PairConstants<Real>& constants_of(const StepView& v, std::size_t a, std::s
   }
 }
 
-/// The shortest vector through the periodic faces: at most one period is added or taken away along each axis.
-inline Vec3d nearest_image(const Vec3d& d, const Vec3d& period) {
-  const auto wrap = [](double x, double length) {
-    return x > 0.5 * length ? x - length : x < -0.5 * length ? x + length : x;  // unchanged for length 0
-  };
-  return {wrap(d.x, period.x), wrap(d.y, period.y), wrap(d.z, period.z)};
-}
-
 /// Is a JKR neck at this (negative) overlap still whole?
 template <class Real>
 bool neck_holds(const PairConstants<Real>& c, Real effective_radius, Real overlap) {

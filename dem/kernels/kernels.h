@@ -6,6 +6,7 @@
 #include "dem/contacts.h"
 #include "dem/grains.h"
 #include "dem/model.h"
+#include "dem/neighbours.h"
 
 namespace interstice::dem {
 
