@@ -9,6 +9,7 @@
 
 #include "apps/command.h"
 #include "coupling/scene/read_scene.h"
+#include "coupling/scene/sizes.h"
 #include "coupling/stream/build_model.h"
 #include "coupling/stream/contact_report.h"
 #include "coupling/stream/schedule.h"
@@ -18,7 +19,7 @@ namespace interstice::apps {
 namespace {
 
 // Measured on a settled bed (docs/PERFORMANCE.md): rows, lists, springs and results; and one core's rate.
-constexpr double kBytesPerGrain = 620, kParticleStepsPerSecondPerCore = 3e6;
+constexpr double kBytesPerGrain = 750, kParticleStepsPerSecondPerCore = 3e6;
 
 struct CheckArguments {
   std::string scene;
@@ -35,15 +36,8 @@ Estimate estimate(const scene::Scene& scene, double step) {
   Estimate e;
   for (const scene::Particles& p : scene.particles) {
     e.grains += static_cast<double>(p.list ? static_cast<std::int64_t>(p.list->grains.size()) : p.count);
-    if (p.rain) {
-      e.smallest = std::min(e.smallest, p.diameter.min);
-      e.largest = std::max(e.largest, p.diameter.max);
-    } else if (p.list) {
-      for (const auto& g : p.list->grains) {
-        e.smallest = std::min(e.smallest, g.diameter);
-        e.largest = std::max(e.largest, g.diameter);
-      }
-    }
+    e.smallest = std::min(e.smallest, scene::smallest_diameter(p));
+    e.largest = std::max(e.largest, scene::largest_diameter(p));
   }
   for (const scene::Phase& p : scene.phases) e.simulated_at_most += p.duration.value_or(p.at_most);
   e.steps_at_most = static_cast<double>(stream::steps_in(e.simulated_at_most, step));

@@ -10,6 +10,7 @@
 #include "coupling/scene/format_quantity.h"
 #include "coupling/scene/overrides.h"
 #include "coupling/scene/readers.h"
+#include "coupling/scene/sizes.h"
 
 namespace interstice::scene {
 namespace {
@@ -178,20 +179,6 @@ void check_inside(const Checker& check, const std::string& at, const Box& inner,
               fmt::format("{} to {} is allowed (domain.box)", format_length(outer.lo[axis]),
                           format_length(outer.hi[axis])),
               remedy);
-}
-
-double largest_diameter(const Particles& group) {
-  double largest = group.rain ? group.diameter.max : 0;
-  if (group.list)
-    for (const PlacedGrain& grain : group.list->grains) largest = std::max(largest, grain.diameter);
-  return largest;
-}
-
-double smallest_diameter(const Particles& group) {
-  double smallest = group.rain ? group.diameter.min : std::numeric_limits<double>::infinity();
-  if (group.list)
-    for (const PlacedGrain& grain : group.list->grains) smallest = std::min(smallest, grain.diameter);
-  return smallest;
 }
 
 void check_rain(const Checker& check, const std::string& path, const Particles& group) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "base/random.h"
 
@@ -136,5 +137,19 @@ std::vector<double> sample_diameters(const Diameters& diameters, std::int64_t co
 }
 
 double quantile(const Diameters& diameters, double p) { return SizeDistribution(diameters).quantile(p); }
+
+double smallest_diameter(const Particles& group) {
+  double smallest = group.rain ? group.diameter.min : std::numeric_limits<double>::infinity();
+  if (group.list)
+    for (const PlacedGrain& grain : group.list->grains) smallest = std::min(smallest, grain.diameter);
+  return smallest;
+}
+
+double largest_diameter(const Particles& group) {
+  double largest = group.rain ? group.diameter.max : 0;
+  if (group.list)
+    for (const PlacedGrain& grain : group.list->grains) largest = std::max(largest, grain.diameter);
+  return largest;
+}
 
 }  // namespace interstice::scene

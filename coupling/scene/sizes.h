@@ -41,4 +41,8 @@ std::vector<double> sample_diameters(const Diameters& diameters, std::int64_t co
 /// SizeDistribution.
 double quantile(const Diameters& diameters, double p);
 
+/// Of a group's grains, rained or listed [m]; an empty list has infinity and 0.
+double smallest_diameter(const Particles& group);
+double largest_diameter(const Particles& group);
+
 }  // namespace interstice::scene

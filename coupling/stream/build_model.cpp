@@ -73,7 +73,7 @@ void derive_stiffness(const scene::Scene& scene, dem::Model& model) {
   if (c.normal != scene::NormalLaw::hooke || c.stiffness_rule == scene::StiffnessRule::given) return;
   double radius = 0, heaviest = 0;  // heaviest: r^3 rho
   for (const scene::Particles& p : scene.particles) {
-    const double r = 0.5 * largest_diameter(p),
+    const double r = 0.5 * scene::largest_diameter(p),
                  rho = model.materials[material_index(scene, p.material)].density;
     if (r * r * r * rho > heaviest) radius = r, heaviest = r * r * r * rho;
   }
@@ -99,22 +99,6 @@ void add_bounding_walls(const scene::Scene& scene, dem::Model& model) {
 }
 
 }  // namespace
-
-double largest_diameter(const scene::Particles& group) {
-  double largest = group.rain ? group.diameter.max : 0;
-  if (group.list) {
-    for (const scene::PlacedGrain& g : group.list->grains) largest = std::max(largest, g.diameter);
-  }
-  return largest;
-}
-
-double smallest_diameter(const scene::Particles& group) {
-  double smallest = group.rain ? group.diameter.min : INFINITY;
-  if (group.list) {
-    for (const scene::PlacedGrain& g : group.list->grains) smallest = std::min(smallest, g.diameter);
-  }
-  return smallest;
-}
 
 std::size_t material_index(const scene::Scene& scene, const std::string& name) {
   for (std::size_t i = 0; i < scene.materials.size(); ++i) {

@@ -16,10 +16,6 @@ std::size_t material_index(const scene::Scene& scene, const std::string& name);
 /// follow.
 dem::Model build_model(const scene::Scene& scene);
 
-/// Diameters of a group's grains [m].
-double smallest_diameter(const scene::Particles& group);
-double largest_diameter(const scene::Particles& group);
-
 /// The model with all places relative to `origin`. The engine computes near the origin of its coordinates,
 /// whatever those of the scene are, so that no digits of an overlap are lost to a far domain.
 dem::Model relative_to(const Vec3d& origin, dem::Model model);

@@ -31,8 +31,8 @@ Sizes sizes_of(const scene::Scene& scene, const std::string& material) {
   Sizes sizes;
   for (const scene::Particles& p : scene.particles) {
     if (p.material != material) continue;
-    sizes.smallest = std::min(sizes.smallest, smallest_diameter(p));
-    sizes.largest = std::max(sizes.largest, largest_diameter(p));
+    sizes.smallest = std::min(sizes.smallest, scene::smallest_diameter(p));
+    sizes.largest = std::max(sizes.largest, scene::largest_diameter(p));
     if (p.list) {
       for (const scene::PlacedGrain& g : p.list->grains) all.push_back(g.diameter);
     } else {

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "coupling/scene/sizes.h"
 #include "coupling/stream/build_model.h"
 
 namespace interstice::stream {
@@ -75,7 +76,7 @@ StepChoice choose_step(const scene::Scene& scene, const dem::Model& model) {
   std::vector<dem::SmallestGrain> smallest;
   double smallest_radius = INFINITY;
   for (const scene::Particles& p : scene.particles) {
-    const double radius = 0.5 * smallest_diameter(p);
+    const double radius = 0.5 * scene::smallest_diameter(p);
     if (!std::isfinite(radius)) continue;  // an empty list
     smallest.push_back({material_index(scene, p.material), radius});
     smallest_radius = std::min(smallest_radius, radius);
