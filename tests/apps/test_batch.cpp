@@ -7,31 +7,21 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <string>
 #include <thread>
 #include <vector>
 
+#include "tests/apps/command_test.h"
+
 namespace interstice::testing {
 namespace {
 
 namespace fs = std::filesystem;
 using Json = nlohmann::json;
-
-std::string slurp(const fs::path& path) {
-  std::ifstream in(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
-
-struct Outcome {
-  int status = -1;
-  std::string out, err;
-};
 
 /// A dump of `frames` frames of `grains` spheres each, radius 10 to 20 um, the grid of centres moving along
 /// x.
@@ -72,33 +62,16 @@ std::vector<std::vector<std::string>> table_of(const fs::path& path) {
   return rows;
 }
 
-class Batch : public ::testing::Test {
+class Batch : public CommandTest {
  protected:
-  void SetUp() override {
-    const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
-    folder_ = fs::temp_directory_path() /
-              ("interstice_batch_" + std::string(test->name()) + std::to_string(::getpid()));
-    fs::create_directories(folder_);
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-
   std::string file(const std::string& name, const std::string& content) const {
     std::ofstream(folder_ / name, std::ios::binary) << content;
     return (folder_ / name).string() + " ";
   }
   std::string out(const std::string& name = "out") const { return (folder_ / name).string(); }
 
-  std::string command(const std::string& arguments) const {
-    return std::string(INTERSTICE_COMMAND) + " batch " + arguments + " >'" + (folder_ / "stdout").string() +
-           "' 2>'" + (folder_ / "stderr").string() + "'";
-  }
-  Outcome call(const std::string& arguments) const {
-    const int status = std::system(command(arguments).c_str());
-    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, slurp(folder_ / "stdout"),
-            slurp(folder_ / "stderr")};
-  }
-
-  fs::path folder_;
+  std::string command(const std::string& arguments) const { return shell_line("batch " + arguments); }
+  Outcome call(const std::string& arguments) const { return interstice("batch " + arguments); }
 };
 
 const std::string kPlain = " --voxel 20um --no-figures --quiet --json ";

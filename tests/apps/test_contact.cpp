@@ -1,29 +1,21 @@
 // Contact laws from the outside: a scene of a few grains through `interstice run` and `check`.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <cmath>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 #include <string>
 
 #include "coupling/io/trajectory.h"
+#include "tests/apps/command_test.h"
 
 namespace interstice::testing {
 namespace {
 
 namespace fs = std::filesystem;
 using Json = nlohmann::json;
-
-std::string slurp(const fs::path& path) {
-  std::ifstream in(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
 
 /// What varies between the scenes of this file.
 struct Case {
@@ -81,21 +73,12 @@ trajectory = "50 us"
                      -c.speed, c.duration, c.step, c.output);
 }
 
-class Contact : public ::testing::Test {
+class Contact : public CommandTest {
  protected:
-  void SetUp() override {
-    const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
-    folder_ = fs::temp_directory_path() / fmt::format("interstice_contact_{}_{}", test->name(), ::getpid());
-    fs::create_directories(folder_);
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-
   int call(const std::string& arguments) {
-    const std::string out = (folder_ / "stdout").string(), err = (folder_ / "stderr").string();
-    const std::string command = fmt::format("{} {} >'{}' 2>'{}'", INTERSTICE_COMMAND, arguments, out, err);
-    const int status = std::system(command.c_str());
-    out_ = slurp(out), err_ = slurp(err);
-    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+    const Outcome outcome = interstice(arguments);
+    out_ = outcome.out, err_ = outcome.err;
+    return outcome.status;
   }
 
   std::string write_scene(const Case& c) {
@@ -119,7 +102,6 @@ class Contact : public ::testing::Test {
     return (f.vx[1] - f.vx[0]) / (2 * c.speed);
   }
 
-  fs::path folder_;
   std::string out_, err_, last_run_;
   int scenes_ = 0;
 };

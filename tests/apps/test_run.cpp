@@ -8,15 +8,14 @@
 
 #include <chrono>
 #include <cmath>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <thread>
 
 #include "coupling/io/trajectory.h"
+#include "tests/apps/command_test.h"
 
 namespace interstice::testing {
 namespace {
@@ -31,30 +30,12 @@ const std::string kSmall =
     "--set 'fields.bed.every=\"3 ms\"' --set 'domain.box.2.1=\"0.6 mm\"' "
     "--set 'particles.powder.insert.box.2=[\"0.05 mm\",\"0.5 mm\"]' --no-figures --quiet ";
 
-std::string slurp(const fs::path& path) {
-  std::ifstream in(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
-
-class Run : public ::testing::Test {
+class Run : public CommandTest {
  protected:
-  void SetUp() override {
-    const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
-    folder_ = fs::temp_directory_path() /
-              ("interstice_run_" + std::string(test->name()) + std::to_string(::getpid()));
-    fs::create_directories(folder_);
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-
-  std::string at(const std::string& name) const { return (folder_ / name).string(); }
-
   int call(const std::string& arguments) {
-    const std::string command = std::string(INTERSTICE_COMMAND) + " " + arguments + " >'" + at("stdout") +
-                                "' 2>'" + at("stderr") + "'";
-    const int status = std::system(command.c_str());
-    out_ = slurp(at("stdout"));
-    err_ = slurp(at("stderr"));
-    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+    const Outcome outcome = interstice(arguments);
+    out_ = outcome.out, err_ = outcome.err;
+    return outcome.status;
   }
 
   /// Starts a run that would take minutes and returns its process.
@@ -69,7 +50,6 @@ class Run : public ::testing::Test {
     return child;
   }
 
-  fs::path folder_;
   std::string out_, err_;
 };
 

@@ -2,20 +2,17 @@
 #include <gtest/gtest.h>
 #include <openvdb/io/File.h>
 #include <openvdb/openvdb.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 #include <string>
 
 #include "coupling/io/particle_reader.h"
 #include "coupling/io/trajectory.h"
+#include "tests/apps/command_test.h"
 #include "tests/coupling/io/vti_decoding.h"
 
 namespace interstice::testing {
@@ -24,35 +21,11 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::json;
 
-std::string slurp(const fs::path& path) {
-  std::ifstream in(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
-
-struct Outcome {
-  int status = -1;
-  std::string out, err;
-};
-
-class Voids : public ::testing::Test {
+class Voids : public CommandTest {
  protected:
-  void SetUp() override {
-    const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
-    folder_ = fs::temp_directory_path() /
-              ("interstice_voids_" + std::string(test->name()) + std::to_string(::getpid()));
-    fs::create_directories(folder_);
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-
   static std::string sample(const std::string& name) { return INTERSTICE_SOURCE_DIR "/data/samples/" + name; }
 
-  Outcome call(const std::string& arguments) const {
-    const std::string command = std::string(INTERSTICE_COMMAND) + " voids " + arguments + " >'" +
-                                (folder_ / "stdout").string() + "' 2>'" + (folder_ / "stderr").string() + "'";
-    const int status = std::system(command.c_str());
-    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, slurp(folder_ / "stdout"),
-            slurp(folder_ / "stderr")};
-  }
+  Outcome call(const std::string& arguments) const { return interstice("voids " + arguments); }
   std::string out() const { return (folder_ / "out").string(); }
   std::string to_out() const { return " -o " + out() + " --no-figures "; }
 
@@ -64,8 +37,6 @@ class Voids : public ::testing::Test {
     EXPECT_EQ(outcome.out, "") << arguments;
     EXPECT_FALSE(fs::exists(out())) << arguments;
   }
-
-  fs::path folder_;
 };
 
 double sphere_volume(const std::string& sample_path, std::int64_t frame_number) {

@@ -1,16 +1,13 @@
 // Extremes through the command: whole scenes at the edge of what makes sense.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "tests/apps/command_test.h"
 #include "tests/report/report.h"
 
 namespace interstice::testing {
@@ -76,52 +73,32 @@ box = [["0 mm", "0.5 mm"], ["0 mm", "0.5 mm"], ["0 mm", "0.1 mm"]]
                      s.gravity, s.modulus, s.grains, s.wall_motion, s.duration, s.step);
 }
 
-struct Outcome {
-  int status = -1;
+struct RunOutcome {
+  int status;
   std::string err;
   fs::path folder;
 
   Json report() const { return Json::parse(std::ifstream(folder / "run.json")); }
-  std::string last_row() const {
-    std::ifstream in(folder / "series.csv");
-    std::string line, last;
-    while (std::getline(in, line)) last = line;
-    return last;
-  }
 };
 
-class Runs : public ::testing::Test {
+class Runs : public CommandTest {
  protected:
-  void SetUp() override {
-    folder_ = fs::temp_directory_path() / fmt::format("interstice_extremes_{}", ::getpid());
-    fs::create_directories(folder_);
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-
-  Outcome run(const Scene& scene, const std::string& options = "") {
-    const fs::path file = folder_ / fmt::format("{}.toml", count_), err = folder_ / "stderr";
+  RunOutcome run(const Scene& scene) {
+    const std::string file = at(fmt::format("{}.toml", count_)), out = at(fmt::format("out{}", count_));
+    ++count_;
     std::ofstream(file) << text_of(scene);
-    Outcome o;
-    o.folder = folder_ / fmt::format("out{}", count_++);
-    const int status =
-        std::system(fmt::format("{} run {} -o {} --no-figures --quiet {} >/dev/null 2>{}", INTERSTICE_COMMAND,
-                                file.string(), o.folder.string(), options, err.string())
-                        .c_str());
-    o.status = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-    std::ifstream in(err);
-    o.err = {std::istreambuf_iterator<char>(in), {}};
-    return o;
+    const Outcome o = interstice(fmt::format("run {} -o {} --no-figures --quiet", file, out));
+    return {o.status, o.err, out};
   }
 
-  fs::path folder_;
   int count_ = 0;
 };
 
 TEST_F(Runs, EmptyAndOneGrain) {
-  const Outcome empty = run({.grains = ""});
+  const RunOutcome empty = run({.grains = ""});
   expect_outcome("empty scene", "a list of no grains", fmt::format("exit {}", empty.status),
                  empty.status == 0 && fs::exists(empty.folder / "fields"));
-  const Outcome one = run({});
+  const RunOutcome one = run({});
   expect_outcome("one grain", "falls and comes to rest", fmt::format("exit {}", one.status),
                  one.status == 0 && one.report().at("grains") == 1);
 }
@@ -129,10 +106,10 @@ TEST_F(Runs, EmptyAndOneGrain) {
 TEST_F(Runs, StepsThatAreTooLong) {
   // Collision time of this grain's impact at 1 m/s: 2.868 (m^2/(R E*^2 v))^0.2 = 6.6 us with another grain.
   const std::string falling = "50, 50, 30, 40, 0, 0, -1";
-  const Outcome warned = run({.grains = falling, .step = "\"0.5 us\""});
+  const RunOutcome warned = run({.grains = falling, .step = "\"0.5 us\""});
   expect_outcome("time step", "above 0.05 of the collision time", "warns and runs",
                  warned.status == 0 && warned.err.find("collision time") != std::string::npos);
-  const Outcome refused = run({.grains = falling, .step = "\"1.5 us\""});
+  const RunOutcome refused = run({.grains = falling, .step = "\"1.5 us\""});
   expect_outcome(
       "time step", "above 0.2 of the collision time", "refused with the largest step allowed",
       refused.status == 2 && refused.err.find("or less") != std::string::npos && !fs::exists(refused.folder));
@@ -140,14 +117,14 @@ TEST_F(Runs, StepsThatAreTooLong) {
 
 TEST_F(Runs, FastWalls) {
   const std::string motion = "motion = [{ phase = \"only\", velocity = [\"10 m/s\", \"0 m/s\", \"0 m/s\"] }]";
-  const Outcome fine = run({.wall_motion = motion, .duration = "30 us"});
+  const RunOutcome fine = run({.wall_motion = motion, .duration = "30 us"});
   expect_outcome("wall at 10 m/s", "step chosen by the program",
                  fmt::format("exit {}, nobody crosses", fine.status),
                  fine.status == 0 && fine.report().at("grains_lost") == 0);
-  const Outcome coarse =
+  const RunOutcome coarse =
       run({.wall_motion = motion, .step = "{ rayleigh = 0.2, collision = 0.04 }\nallow_unstable = true"});
   EXPECT_NE(coarse.status, -1);
-  const Outcome jump = run({.wall_motion = motion, .step = "\"1.2 us\"\nallow_unstable = true"});
+  const RunOutcome jump = run({.wall_motion = motion, .step = "\"1.2 us\"\nallow_unstable = true"});
   expect_outcome("wall at 10 m/s", "more than half the smallest radius in a step", "refused",
                  jump.status == 2 && jump.err.find("half the smallest radius") != std::string::npos);
 }
@@ -155,8 +132,8 @@ TEST_F(Runs, FastWalls) {
 TEST_F(Runs, AnUnstableRunStopsAndKeepsItsCheckpoint) {
   // Two grains pressed into each other by half their radius: far stiffer than any impact that the step was
   // chosen for.
-  const Outcome o = run({.grains = "250, 250, 100, 40, 0, 0, 0\n260, 250, 100, 40, 0, 0, 0",
-                         .step = "\"2 us\"\nallow_unstable = true"});
+  const RunOutcome o = run({.grains = "250, 250, 100, 40, 0, 0, 0\n260, 250, 100, 40, 0, 0, 0",
+                            .step = "\"2 us\"\nallow_unstable = true"});
   expect_outcome(
       "instability while running", "deep overlap, step far too long",
       fmt::format("exit {} naming grain, step and cause; the checkpoint from before is kept", o.status),
@@ -165,7 +142,7 @@ TEST_F(Runs, AnUnstableRunStopsAndKeepsItsCheckpoint) {
 }
 
 TEST_F(Runs, DeepOverlapIsSeenAtOnce) {
-  const Outcome o =
+  const RunOutcome o =
       run({.grains = "250, 250, 100, 40, 0, 0, 0\n270, 250, 100, 40, 0, 0, 0", .step = "\"0.9 us\""});
   expect_outcome("initial overlap", "half a diameter, step fine for the speeds but not for this",
                  fmt::format("exit {}: {}", o.status, o.err.substr(0, 60)), o.status == 3);
@@ -175,7 +152,7 @@ TEST_F(Runs, NumbersThatAreNone) {
   int refused = 0;
   for (const std::string bad : {"50, 50, nan, 40, 0, 0, 0", "50, 50, inf, 40, 0, 0, 0",
                                 "50, 50, 300, -40, 0, 0, 0", "50, 50, 300, 0, 0, 0, 0"}) {
-    const Outcome o = run({.grains = bad});
+    const RunOutcome o = run({.grains = bad});
     refused += o.status == 2 && !fs::exists(o.folder);
   }
   refused += run({.modulus = "0 Pa"}).status == 2;
@@ -184,7 +161,7 @@ TEST_F(Runs, NumbersThatAreNone) {
 }
 
 TEST_F(Runs, ZeroGravity) {
-  const Outcome o = run({.grains = "50, 50, 300, 40, 0.01, 0, 0", .gravity = "0"});
+  const RunOutcome o = run({.grains = "50, 50, 300, 40, 0.01, 0, 0", .gravity = "0"});
   expect_outcome("zero gravity", "a grain in flight", fmt::format("exit {}", o.status), o.status == 0);
 }
 
