@@ -30,8 +30,9 @@ What the program computes, held against closed forms and published results. Made
 
     tests/verification/make_page.sh BUILD_DIR
 
-which runs the programs of tests/verification and writes down every check that they make; with `LONG=1` also those
-of the label `long`, assemblies of many grains that run for minutes. Every number was computed by that run.
+which runs the programs of tests/verification and writes down every check that they make, in VERIFICATION.md; with
+`LONG=1` it runs those of the label `long`, assemblies of many grains that take minutes each, and writes
+VERIFICATION_LONG.md.
 
 `yes`: within the tolerance, which the test's source gives the reason for. `NO`: not; the test fails. `shown`: set
 beside the reference and not held to it, for the reason in the column of the tolerance (a disagreement of models, a
@@ -46,7 +47,8 @@ What the program does at the ends of what can be asked of it. Made by
 
     tests/extremes/make_page.sh BUILD_DIR
 
-which runs the programs of tests/extremes and writes down what they tried; with `LONG=1` also the long ones.
+which runs the programs of tests/extremes and writes down what they tried, in EXTREMES.md; with `LONG=1` it runs the
+long ones and writes EXTREMES_LONG.md.
 
 )"},
 };
