@@ -7,8 +7,8 @@
 
 namespace interstice::dem {
 namespace {
-constexpr std::size_t kRowsPerBlock = 2048;
-constexpr std::size_t kPairsPerBlock = 4096;
+constexpr std::size_t kSlotsPerBlock = 2048;
+constexpr std::size_t kGroupsPerBlock = 256;
 
 template <class T>
 std::size_t bytes_of(const std::vector<T>& v) {
@@ -26,75 +26,207 @@ void resize_tightly(std::vector<T>& v, std::size_t n) {
   v.resize(n);
 }
 
+constexpr std::size_t kNoPair = static_cast<std::size_t>(-1);
+
+/// A list that is being replaced, by the slots of its time.
+struct OldEnds {
+  std::vector<PairRef> pairs;
+  std::vector<std::uint32_t> first, pair_of_end;
+
+  std::size_t find(std::uint32_t a, std::uint32_t b) const {
+    if (a + 1 >= first.size()) return kNoPair;
+    for (std::uint32_t e = first[a]; e < first[a + 1]; ++e) {
+      const PairRef& p = pairs[pair_of_end[e]];
+      if (p.a == b || p.b == b) return pair_of_end[e];
+    }
+    return kNoPair;
+  }
+};
+
+/// Index of number n of a pair's spring.
+std::size_t spring_index(std::size_t pair, std::size_t n) {
+  return (pair / kLanes * kSpringReals + n) * kLanes + pair % kLanes;
+}
+
+TangentialSpring<double> spring_at(const Reals& springs, std::size_t k) {
+  if (springs.empty()) return {};
+  return {{springs[spring_index(k, 0)], springs[spring_index(k, 1)], springs[spring_index(k, 2)]},
+          springs[spring_index(k, 3)]};
+}
+
+void set_spring(Reals& springs, std::size_t k, const TangentialSpring<double>& spring) {
+  for (int axis = 0; axis < 3; ++axis)
+    springs.set(spring_index(k, static_cast<std::size_t>(axis)), spring.force[axis]);
+  springs.set(spring_index(k, 3), spring.stiffness);
+}
+
+void copy_spring(const Reals& from, std::size_t old_pair, Reals& to, std::size_t pair) {
+  for (std::size_t n = 0; n < kSpringReals; ++n)
+    to.set(spring_index(pair, n), from[spring_index(old_pair, n)]);
+}
+
 }  // namespace
 
-void PairContacts::replace(std::vector<PairRef> new_pairs, const std::vector<GrainRow>& rows,
-                           const std::vector<std::uint32_t>& old_slot) {
-  std::vector<ContactState> new_state(new_pairs.size(), ContactState::apart);
-  std::vector<TangentialSpring<double>> new_sliding(kept_.sliding ? new_pairs.size() : 0);
-  std::vector<TangentialSpring<double>> new_rolling(kept_.rolling ? new_pairs.size() : 0);
-  for_each_block({new_pairs.size(), kPairsPerBlock}, [&](std::size_t, std::size_t begin, std::size_t end) {
-    for (std::size_t k = begin; k < end; ++k) {
-      const std::uint32_t slot = old_slot[new_pairs[k].a];
-      if (slot == kNoSlot) continue;
-      const std::int64_t partner = rows[new_pairs[k].b].id;
-      const auto first = partner_id_.begin() + first_[slot], last = partner_id_.begin() + first_[slot + 1];
-      const auto at = std::lower_bound(first, last, partner);
-      if (at == last || *at != partner) continue;
-      const std::uint32_t old_pair = adjacent_[static_cast<std::size_t>(at - partner_id_.begin())].pair;
-      new_state[k] = state[old_pair];
-      if (kept_.sliding) new_sliding[k] = sliding[old_pair];
-      if (kept_.rolling) new_rolling[k] = rolling[old_pair];
+PairContacts::PairContacts(const KeptMemories& kept, Precision precision)
+    : kept_(kept),
+      sliding_(precision),
+      rolling_(precision),
+      end_forces_(precision),
+      ring_forces_(precision),
+      kept_forces_(precision),
+      end_reals_(precision == Precision::mixed ? kEndReals<float> : kEndReals<double>) {}
+
+/// Empty places get a copy of a listed pair of their group, so that they can be worked on like any other.
+void PairContacts::place_pairs(const std::vector<PairRef>& found, const PairOrder& order) {
+  listed_ = found.size();
+  sweep_ = order.sweep;
+  resize_tightly(pairs_, order.places);
+  bits_.assign(order.places / kLanes, {});
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    const std::size_t k = order.place[i];
+    pairs_[k] = found[i];
+    bits_[k / kLanes].listed |= static_cast<std::uint16_t>(1u << (k % kLanes));
+  }
+  for (std::size_t g = 0; g < bits_.size(); ++g) {
+    const auto listed = static_cast<std::size_t>(std::countr_one(bits_[g].listed));  // empty places come last
+    for (std::size_t lane = listed; lane < kLanes; ++lane) pairs_[g * kLanes + lane] = pairs_[g * kLanes];
+  }
+}
+
+void PairContacts::replace(const std::vector<PairRef>& found, const std::vector<GrainSite>& sites,
+                           const std::vector<std::uint32_t>& old_slot, const Parts& parts) {
+  const std::vector<GroupBits> old_bits = std::move(bits_);
+  Reals old_sliding = std::move(sliding_), old_rolling = std::move(rolling_);
+  const OldEnds old_ends{std::move(pairs_), std::move(all_.first), std::move(pair_of_end_)};
+  pairs_ = {};
+  place_pairs(found, order_pairs(found, parts, kept_.heat));
+  if (kept_.sliding) sliding_.reset(kSpringReals * pairs_.size());
+  if (kept_.rolling) rolling_.reset(kSpringReals * pairs_.size());
+  for_each_block({bits_.size(), kGroupsPerBlock}, [&](std::size_t, std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin * kLanes; k < end * kLanes; ++k) {
+      const auto old = [&](std::uint32_t slot) { return old_slot.empty() ? slot : old_slot[slot]; };
+      const std::uint32_t a = old(pairs_[k].a), b = old(pairs_[k].b);
+      if (a == kNoSlot || b == kNoSlot || !(bits_[k / kLanes].listed >> k % kLanes & 1)) continue;
+      const std::size_t from = old_ends.find(a, b);
+      if (from == kNoPair) continue;
+      const auto move_bit = [&](std::uint16_t bits, std::uint16_t& to) {
+        to = static_cast<std::uint16_t>(to | (bits >> from % kLanes & 1) << k % kLanes);
+      };
+      move_bit(old_bits[from / kLanes].touching, bits_[k / kLanes].touching);
+      move_bit(old_bits[from / kLanes].attracting, bits_[k / kLanes].attracting);
+      if (kept_.sliding) copy_spring(old_sliding, from, sliding_, k);
+      if (kept_.rolling) copy_spring(old_rolling, from, rolling_, k);
     }
   });
-  pairs = std::move(new_pairs);
-  state = std::move(new_state);
-  sliding = std::move(new_sliding);
-  rolling = std::move(new_rolling);
-  resize_tightly(results, pairs.size());
-  if (kept_.heat) heat.assign(pairs.size(), {});
-  build_adjacency(rows);
+  build_adjacency(sites);
+  ring_ = make_ring(sweep_, pairs_, all_);
+  ring_forces_.reset(ring_.places.places * end_reals_ + 1);  // collecting reads one number on
+  kept_forces_.reset(ring_.kept * end_reals_ + 1);
+  end_forces_.reset(0);
+  if (kept_.heat) heat_.assign(pairs_.size(), {});
+}
+
+Vec3d PairContacts::force(std::size_t k) const {
+  const std::size_t at = all_.of_pair[k].a * end_reals_;
+  return keeps_forces() ? Vec3d{end_forces_[at], end_forces_[at + 1], end_forces_[at + 2]} : Vec3d{0, 0, 0};
+}
+
+TangentialSpring<double> PairContacts::sliding(std::size_t k) const { return spring_at(sliding_, k); }
+TangentialSpring<double> PairContacts::rolling(std::size_t k) const { return spring_at(rolling_, k); }
+
+void PairContacts::set_touching(std::size_t k, const TangentialSpring<double>& sliding,
+                                const TangentialSpring<double>& rolling) {
+  GroupBits& bits = bits_[k / kLanes];
+  bits.touching = static_cast<std::uint16_t>(bits.touching | 1u << (k % kLanes));
+  if (kept_.sliding) set_spring(sliding_, k, sliding);
+  if (kept_.rolling) set_spring(rolling_, k, rolling);
+}
+
+void PairContacts::keep_forces(bool all) {
+  const std::size_t n = all ? all_.places * end_reals_ + 1 : 0;
+  if (end_forces_.size() != n) end_forces_.reset(n);
+}
+
+PairView PairContacts::view() {
+  const bool all = keeps_forces();
+  return {pairs_.data(),
+          all ? all_.of_pair.data() : ring_.places.of_pair.data(),
+          bits_.data(),
+          sliding_.empty() ? nullptr : sliding_.data(),
+          rolling_.empty() ? nullptr : rolling_.data(),
+          all ? end_forces_.data() : ring_forces_.data(),
+          heat_.empty() ? nullptr : heat_.data()};
+}
+
+PairView PairContacts::shared_view() {
+  PairView v = view();
+  if (!keeps_forces()) v.end_forces = kept_forces_.data();
+  return v;
+}
+
+void PairContacts::fetch_shared(std::size_t block) {
+  if (keeps_forces()) return;
+  for (std::uint32_t i = ring_.first[block]; i < ring_.first[block + 1]; ++i) {
+    const SharedEnd& end = ring_.shared[i];
+    for (std::size_t n = 0; n < end_reals_; ++n)
+      ring_forces_.set(end.place * end_reals_ + n, kept_forces_[end.kept * end_reals_ + n]);
+  }
 }
 
 std::size_t PairContacts::bytes() const {
-  return bytes_of(pairs) + bytes_of(state) + bytes_of(sliding) + bytes_of(rolling) + bytes_of(results) +
-         bytes_of(heat) + bytes_of(first_) + bytes_of(adjacent_) + bytes_of(partner_id_);
+  return bytes_of(pairs_) + bytes_of(all_.of_pair) + bytes_of(ring_.places.of_pair) + bytes_of(bits_) +
+         sliding_.bytes() + rolling_.bytes() + end_forces_.bytes() + bytes_of(heat_) + ring_forces_.bytes() +
+         kept_forces_.bytes() + bytes_of(all_.first) + bytes_of(ring_.places.first) + bytes_of(ring_.shared) +
+         bytes_of(pair_of_end_);
 }
 
 std::size_t WallContacts::bytes() const { return bytes_of(entries) + bytes_of(first_); }
 
-void PairContacts::build_adjacency(const std::vector<GrainRow>& rows) {
-  first_.assign(rows.size() + 1, 0);
-  for (const PairRef& p : pairs) {
-    ++first_[p.a + 1];
-    ++first_[p.b + 1];
+void PairContacts::build_adjacency(const std::vector<GrainSite>& sites) {
+  const auto trash = static_cast<std::uint32_t>(2 * listed_);  // where empty places put their forces
+  const auto listed = [&](std::size_t k) { return (bits_[k / kLanes].listed >> k % kLanes & 1) != 0; };
+  std::vector<std::uint32_t>& first = all_.first;
+  first.assign(sites.size() + 1, 0);
+  for (std::size_t k = 0; k < pairs_.size(); ++k) {
+    if (!listed(k)) continue;
+    ++first[pairs_[k].a + 1];
+    ++first[pairs_[k].b + 1];
   }
-  for (std::size_t s = 1; s < first_.size(); ++s) first_[s] += first_[s - 1];
-  resize_tightly(adjacent_, 2 * pairs.size());
-  resize_tightly(partner_id_, 2 * pairs.size());
-  std::vector<std::uint32_t> next(first_.begin(), first_.end() - 1);
-  for (std::uint32_t k = 0; k < pairs.size(); ++k) {
-    adjacent_[next[pairs[k].a]++] = {k, pairs[k].b, 0};
-    adjacent_[next[pairs[k].b]++] = {k, pairs[k].a, 1};
+  for (std::size_t s = 1; s < first.size(); ++s) first[s] += first[s - 1];
+  resize_tightly(pair_of_end_, 2 * listed_);
+  resize_tightly(all_.of_pair, pairs_.size());
+  std::fill(all_.of_pair.begin(), all_.of_pair.end(), PairEnds{trash, trash});
+  all_.places = 2 * listed_ + 1;
+  std::vector<std::uint32_t> next(first.begin(), first.end() - 1);
+  for (std::uint32_t k = 0; k < pairs_.size(); ++k) {
+    if (!listed(k)) continue;
+    pair_of_end_[next[pairs_[k].a]++] = k;
+    pair_of_end_[next[pairs_[k].b]++] = k;
   }
-  for_each_block({rows.size(), kRowsPerBlock}, [&](std::size_t, std::size_t begin, std::size_t end) {
+  for_each_block({sites.size(), kSlotsPerBlock}, [&](std::size_t, std::size_t begin, std::size_t end) {
     for (std::size_t s = begin; s < end; ++s) {
-      std::sort(adjacent_.begin() + first_[s], adjacent_.begin() + first_[s + 1],
-                [&](const Adjacent& l, const Adjacent& r) { return rows[l.slot].id < rows[r.slot].id; });
-      for (std::uint32_t e = first_[s]; e < first_[s + 1]; ++e) partner_id_[e] = rows[adjacent_[e].slot].id;
+      const auto partner = [&](std::uint32_t pair) {
+        return sites[pairs_[pair].a == s ? pairs_[pair].b : pairs_[pair].a].id;
+      };
+      std::sort(pair_of_end_.begin() + first[s], pair_of_end_.begin() + first[s + 1],
+                [&](std::uint32_t l, std::uint32_t r) { return partner(l) < partner(r); });
+      for (std::uint32_t e = first[s]; e < first[s + 1]; ++e) {
+        PairEnds& ends = all_.of_pair[pair_of_end_[e]];
+        (pairs_[pair_of_end_[e]].a == s ? ends.a : ends.b) = e;
+      }
     }
   });
 }
 
-void WallContacts::replace(const std::vector<GrainRow>& rows, const std::vector<Shape>& walls, double reach,
+void WallContacts::replace(const std::vector<GrainSite>& sites, const std::vector<Shape>& walls, double reach,
                            const std::vector<std::uint32_t>& old_slot) {
-  const Blocks blocks{rows.size(), kRowsPerBlock};
+  const Blocks blocks{sites.size(), kSlotsPerBlock};
   std::vector<std::vector<WallContact>> found(blocks.count());
-  std::vector<std::uint32_t> count(rows.size() + 1, 0);
+  std::vector<std::uint32_t> count(sites.size() + 1, 0);
   for_each_block(blocks, [&](std::size_t b, std::size_t begin, std::size_t end) {
     for (std::size_t s = begin; s < end; ++s) {
       for (std::uint32_t w = 0; w < walls.size(); ++w) {
-        if (wall_distance(walls[w], rows[s].position()).distance >= rows[s].radius + reach) continue;
+        if (wall_distance(walls[w], sites[s].position()).distance >= sites[s].radius + reach) continue;
         WallContact contact;
         contact.wall = w;
         if (old_slot[s] != PairContacts::kNoSlot) {

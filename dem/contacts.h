@@ -2,14 +2,19 @@
 // lists: a grain's forces are summed over its partners in the order of their ids.
 #pragma once
 
+#include <bit>
 #include <cstdint>
+#include <ranges>
 #include <span>
 #include <vector>
 
 #include "base/vec3.h"
 #include "dem/contact/mindlin.h"
+#include "dem/end_places.h"
 #include "dem/grains.h"
 #include "dem/neighbours.h"
+#include "dem/reals.h"
+#include "dem/sweep.h"
 
 namespace interstice::dem {
 
@@ -22,13 +27,6 @@ enum class ContactState : std::uint8_t {
 /// Which memories the laws keep: what they do not keep takes no space.
 struct KeptMemories {
   bool sliding = false, rolling = false, heat = false;
-};
-
-/// What a pair did in the last step, kept until its grains have collected it.
-struct PairResult {
-  Vec3d force;     // on a [N]
-  Vec3d torque_a;  // [N m]
-  Vec3d torque_b;
 };
 
 /// What a pair turned into heat in the last step [J].
@@ -44,46 +42,112 @@ struct PairHeat {
 /// One end of a pair, as a grain sees it.
 struct Adjacent {
   std::uint32_t pair;
-  std::uint32_t slot : 31;   // the partner
-  std::uint32_t second : 1;  // this grain is b
+  std::uint32_t slot;  // the partner
+  bool second;         // this grain is b
+};
+
+/// A bit a pair of a group.
+struct GroupBits {
+  std::uint16_t listed = 0;      // the others are empty places, filled with a copy of a listed pair
+  std::uint16_t touching = 0;    // after the last step
+  std::uint16_t attracting = 0;  // the same
+};
+static_assert(kLanes == 16);
+
+/// Numbers at one end: force [N] and torque [N m]; in single precision with a zero after each.
+template <class Real>
+inline constexpr std::size_t kEndReals = sizeof(Real) == 4 ? 8 : 6;
+/// Numbers of one spring: force [N] and stiffness [N/m].
+inline constexpr std::size_t kSpringReals = 4;
+
+/// What the kernels see of the pairs. Springs: by group, number and lane; ends: by end and number; both in
+/// the kernels' number type; null where not kept.
+struct PairView {
+  const PairRef* pairs;
+  const PairEnds* ends;
+  GroupBits* bits;
+  void* sliding;
+  void* rolling;
+  void* end_forces;
+  PairHeat* heat;
 };
 
 class PairContacts {
  public:
-  explicit PairContacts(const KeptMemories& kept) : kept_(kept) {}
-
-  std::vector<PairRef> pairs;
-  std::vector<ContactState> state;                // after the last step
-  std::vector<TangentialSpring<double>> sliding;  // zero unless touching; empty unless kept
-  std::vector<TangentialSpring<double>> rolling;  // the same
-  std::vector<PairResult> results;                // valid unless apart
-  std::vector<PairHeat> heat;                     // empty unless kept
-
-  bool touching(std::size_t k) const { return state[k] == ContactState::touching; }
+  PairContacts(const KeptMemories& kept, Precision precision);
 
   /// Takes over a new list; states and springs move with their pairs. `old_slot[s]` is where the
-  /// grain now in slot s stood when the present list was made (or kNoSlot).
-  void replace(std::vector<PairRef> new_pairs, const std::vector<GrainRow>& rows,
-               const std::vector<std::uint32_t>& old_slot);
+  /// grain now in slot s stood when the present list was made (or kNoSlot); empty: where it is.
+  void replace(const std::vector<PairRef>& found, const std::vector<GrainSite>& sites,
+               const std::vector<std::uint32_t>& old_slot, const Parts& parts);
+
+  /// Places of pairs, listed and empty: the range of the indices below.
+  std::size_t places() const { return pairs_.size(); }
+  std::size_t listed() const { return listed_; }
+  const PairRef& pair(std::size_t k) const { return pairs_[k]; }
+  ContactState state(std::size_t k) const {
+    const std::uint32_t bit = 1u << (k % kLanes);
+    const GroupBits& g = bits_[k / kLanes];
+    return g.touching & bit     ? ContactState::touching
+           : g.attracting & bit ? ContactState::attracting
+                                : ContactState::apart;
+  }
+  bool touching(std::size_t k) const { return state(k) == ContactState::touching; }
+  Vec3d force(std::size_t k) const;                       // on a, in the last step [N]
+  TangentialSpring<double> sliding(std::size_t k) const;  // zero unless touching
+  TangentialSpring<double> rolling(std::size_t k) const;  // the same
+  const PairHeat& heat(std::size_t k) const { return heat_[k]; }
+  /// Makes a pair touch, with these springs (those that are not kept are left out).
+  void set_touching(std::size_t k, const TangentialSpring<double>& sliding,
+                    const TangentialSpring<double>& rolling);
 
   /// The pairs of the grain in `slot`, by ascending id of the partner; none for a grain added since the list
   /// was made.
-  std::span<const Adjacent> of(std::size_t slot) const {
-    if (slot + 1 >= first_.size()) return {};
-    return {adjacent_.data() + first_[slot], adjacent_.data() + first_[slot + 1]};
+  auto of(std::size_t slot) const {
+    const auto known =
+        slot + 1 < all_.first.size()
+            ? std::span(pair_of_end_).subspan(all_.first[slot], all_.first[slot + 1] - all_.first[slot])
+            : std::span<const std::uint32_t>();
+    return known | std::views::transform([this, slot](std::uint32_t pair) {
+             const bool second = pairs_[pair].b == slot;
+             return Adjacent{pair, second ? pairs_[pair].a : pairs_[pair].b, second};
+           });
   }
-
+  const Sweep& sweep() const { return sweep_; }
+  /// For a step after which forces are asked for: they are kept for all ends, else in the ring.
+  void keep_forces(bool all);
+  bool keeps_forces() const { return !end_forces_.empty(); }
+  /// What the kernels see of pairs shared by parts, and of those inside parts.
+  PairView shared_view();
+  PairView view();
+  /// The first end of slot s is at first_places()[s], its number of ends ends_of(s).
+  const std::uint32_t* first_places() const {
+    return keeps_forces() ? all_.first.data() : ring_.places.first.data();
+  }
+  const std::uint32_t* first_ends() const { return all_.first.data(); }
+  /// Brings forces of shared pairs to where the grains of a block collect them.
+  void fetch_shared(std::size_t block);
   std::size_t bytes() const;
 
   static constexpr std::uint32_t kNoSlot = 0xffffffffu;
 
  private:
-  void build_adjacency(const std::vector<GrainRow>& rows);
+  void place_pairs(const std::vector<PairRef>& found, const PairOrder& order);
+  void build_adjacency(const std::vector<GrainSite>& sites);
 
   KeptMemories kept_;
-  std::vector<std::uint32_t> first_;  // per slot
-  std::vector<Adjacent> adjacent_;
-  std::vector<std::int64_t> partner_id_;  // beside adjacent_: survives a change of slots
+  Sweep sweep_;
+  std::size_t listed_ = 0;
+  std::vector<PairRef> pairs_;
+  std::vector<GroupBits> bits_;
+  EndPlaces all_;  // `first` with one past the last
+  EndRing ring_;
+  Reals sliding_, rolling_;
+  Reals end_forces_;                 // by all_; empty while nobody asks
+  Reals ring_forces_, kept_forces_;  // by ring_
+  std::size_t end_reals_;
+  std::vector<PairHeat> heat_;
+  std::vector<std::uint32_t> pair_of_end_;
 };
 
 /// A grain near a wall.
@@ -113,7 +177,7 @@ class WallContacts {
   std::size_t bytes() const;
 
   /// Lists the walls nearer than `reach` to each grain; memories move along as in PairContacts::replace.
-  void replace(const std::vector<GrainRow>& rows, const std::vector<Shape>& walls, double reach,
+  void replace(const std::vector<GrainSite>& sites, const std::vector<Shape>& walls, double reach,
                const std::vector<std::uint32_t>& old_slot);
 
  private:

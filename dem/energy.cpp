@@ -37,17 +37,17 @@ double kinetic_energy(const GrainRow& g) {
 
 StoredEnergy stored_in_pair(const Simulation& sim, std::size_t k) {
   const PairContacts& list = sim.pair_contacts();
-  if (list.state[k] == ContactState::apart) return {};
-  const GrainRow& a = sim.rows()[list.pairs[k].a];
-  const GrainRow& b = sim.rows()[list.pairs[k].b];
+  if (list.state(k) == ContactState::apart) return {};
+  const GrainRow a = sim.row(list.pair(k).a);
+  const GrainRow b = sim.row(list.pair(k).b);
   const double d = norm(separation(a.position(), b.position(), sim.search_space()));
   const double overlap = a.radius + b.radius - d;
   StoredEnergy stored;
   stored.normal = normal_potential(sim.model().laws, sim.constants(a.material, b.material),
                                    a.radius * b.radius / (a.radius + b.radius), overlap,
                                    d > 0 ? sphere_sphere_area_integral(a.radius, b.radius, d, overlap) : 0);
-  if (!list.sliding.empty()) stored.tangential = spring_energy(list.sliding[k]);
-  if (!list.rolling.empty()) stored.rolling = spring_energy(list.rolling[k]);
+  stored.tangential = spring_energy(list.sliding(k));
+  stored.rolling = spring_energy(list.rolling(k));
   return stored;
 }
 
@@ -71,12 +71,12 @@ EnergyBalance energy_balance(const Simulation& sim) {
     sum.elastic_rolling += s.rolling;
   };
   for (const std::uint32_t slot : sim.slots_by_id()) {
-    sum.kinetic += kinetic_energy(sim.rows()[slot]);
+    sum.kinetic += kinetic_energy(sim.row(slot));
     for (const Adjacent& e : sim.pair_contacts().of(slot)) {
       if (!e.second) add(stored_in_pair(sim, e.pair));
     }
     for (const WallContact& contact : sim.wall_contacts().of(slot)) {
-      add(stored_in_wall_contact(sim, sim.rows()[slot], contact));
+      add(stored_in_wall_contact(sim, sim.row(slot), contact));
     }
   }
   for (const GrainEnergy& g : sim.grain_energies()) {

@@ -7,19 +7,20 @@
 #include "base/parallel.h"
 
 namespace interstice::dem {
-namespace {
 
-constexpr std::size_t kRowsPerBlock = 1024;
-constexpr int kMaxLevels = 16;
-
-bool near(const GrainRow& a, const GrainRow& b, const SearchSpace& space) {
+bool are_near(const GrainSite& a, const GrainSite& b, const SearchSpace& space) {
   const Vec3d d = separation(a.position(), b.position(), space);
   const double reach = a.radius + b.radius + space.skin;
   return dot(d, d) < reach * reach;
 }
 
-PairRef ordered(const std::vector<GrainRow>& rows, std::uint32_t i, std::uint32_t j) {
-  return rows[i].id < rows[j].id ? PairRef{i, j} : PairRef{j, i};
+namespace {
+
+constexpr std::size_t kRowsPerBlock = 1024;
+constexpr int kMaxLevels = 16;
+
+PairRef ordered(const std::vector<GrainSite>& sites, std::uint32_t i, std::uint32_t j) {
+  return sites[i].id < sites[j].id ? PairRef{i, j} : PairRef{j, i};
 }
 
 /// The grains of one size class in the cells of a dense grid over their own bounding box.
@@ -39,11 +40,11 @@ struct Level {
   }
 };
 
-Box bounds_of(const std::vector<GrainRow>& rows, const std::vector<std::uint32_t>& members) {
+Box bounds_of(const std::vector<GrainSite>& sites, const std::vector<std::uint32_t>& members) {
   constexpr double inf = std::numeric_limits<double>::infinity();
   Box b{{inf, inf, inf}, {-inf, -inf, -inf}};
   for (const std::uint32_t m : members) {
-    const Vec3d p = rows[m].position();
+    const Vec3d p = sites[m].position();
     for (int axis = 0; axis < 3; ++axis) {
       b.lo[axis] = std::min(b.lo[axis], p[axis]);
       b.hi[axis] = std::max(b.hi[axis], p[axis]);
@@ -72,12 +73,12 @@ void size_cells(Level& level, const Box& box, double edge, std::size_t grains, c
   }
 }
 
-void sort_into_cells(Level& level, const std::vector<GrainRow>& rows,
+void sort_into_cells(Level& level, const std::vector<GrainSite>& sites,
                      const std::vector<std::uint32_t>& slots) {
   level.start.assign(static_cast<std::size_t>(level.n[0] * level.n[1] * level.n[2]) + 1, 0);
   std::vector<std::uint32_t> cell_of(slots.size());
   for (std::size_t s = 0; s < slots.size(); ++s) {
-    const Vec3d p = rows[slots[s]].position();
+    const Vec3d p = sites[slots[s]].position();
     std::array<std::int64_t, 3> c{};
     for (int axis = 0; axis < 3; ++axis) {
       c[axis] = std::clamp<std::int64_t>(level.coordinate(p[axis], axis), 0, level.n[axis] - 1);
@@ -92,26 +93,26 @@ void sort_into_cells(Level& level, const std::vector<GrainRow>& rows,
 }
 
 /// Classes by halves of the largest radius; empty ones are left out.
-std::vector<Level> build_levels(const std::vector<GrainRow>& rows, const SearchSpace& space,
+std::vector<Level> build_levels(const std::vector<GrainSite>& sites, const SearchSpace& space,
                                 std::vector<std::uint8_t>& level_of) {
   double largest = 0;
-  for (const GrainRow& r : rows) largest = std::max(largest, r.radius);
+  for (const GrainSite& r : sites) largest = std::max(largest, r.radius);
   std::array<std::vector<std::uint32_t>, kMaxLevels> classes;
-  for (std::uint32_t i = 0; i < rows.size(); ++i) {
-    const int c = std::clamp(static_cast<int>(std::log2(largest / rows[i].radius)), 0, kMaxLevels - 1);
+  for (std::uint32_t i = 0; i < sites.size(); ++i) {
+    const int c = std::clamp(static_cast<int>(std::log2(largest / sites[i].radius)), 0, kMaxLevels - 1);
     classes[c].push_back(i);
   }
   std::vector<Level> levels;
-  level_of.resize(rows.size());
+  level_of.resize(sites.size());
   for (const auto& slots : classes) {
     if (slots.empty()) continue;
     Level level;
     for (const std::uint32_t s : slots) {
-      level.largest = std::max(level.largest, rows[s].radius);
+      level.largest = std::max(level.largest, sites[s].radius);
       level_of[s] = static_cast<std::uint8_t>(levels.size());
     }
-    size_cells(level, bounds_of(rows, slots), 2 * level.largest + space.skin, slots.size(), space);
-    sort_into_cells(level, rows, slots);
+    size_cells(level, bounds_of(sites, slots), 2 * level.largest + space.skin, slots.size(), space);
+    sort_into_cells(level, sites, slots);
     levels.push_back(std::move(level));
   }
   return levels;
@@ -145,9 +146,9 @@ Span cells_in_reach(const Level& level, double p, double reach, int axis, bool p
   return span;
 }
 
-void search_level(const std::vector<GrainRow>& rows, const SearchSpace& space, const Level& level,
+void search_level(const std::vector<GrainSite>& sites, const SearchSpace& space, const Level& level,
                   bool own_level, std::uint32_t i, std::vector<PairRef>& found) {
-  const GrainRow& grain = rows[i];
+  const GrainSite& grain = sites[i];
   const double reach = grain.radius + level.largest + space.skin;
   std::array<Span, 3> spans;
   for (int axis = 0; axis < 3; ++axis) {
@@ -160,7 +161,7 @@ void search_level(const std::vector<GrainRow>& rows, const SearchSpace& space, c
       for (std::uint32_t m = begin; m < end; ++m) {
         const std::uint32_t other = level.members[m];
         if (own_level && other <= i) continue;  // each pair of a class once
-        if (near(grain, rows[other], space)) found.push_back(ordered(rows, i, other));
+        if (are_near(grain, sites[other], space)) found.push_back(ordered(sites, i, other));
       }
     }
   };
@@ -175,17 +176,17 @@ void search_level(const std::vector<GrainRow>& rows, const SearchSpace& space, c
 
 }  // namespace
 
-std::vector<PairRef> find_pairs(const std::vector<GrainRow>& rows, const SearchSpace& space) {
-  if (rows.empty()) return {};
+std::vector<PairRef> find_pairs(const std::vector<GrainSite>& sites, const SearchSpace& space) {
+  if (sites.empty()) return {};
   std::vector<std::uint8_t> level_of;
-  const std::vector<Level> levels = build_levels(rows, space, level_of);
+  const std::vector<Level> levels = build_levels(sites, space, level_of);
 
-  const Blocks blocks{rows.size(), kRowsPerBlock};
+  const Blocks blocks{sites.size(), kRowsPerBlock};
   std::vector<std::vector<PairRef>> found(blocks.count());
   for_each_block(blocks, [&](std::size_t b, std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       for (std::size_t l = 0; l <= level_of[i]; ++l) {  // its own class and the coarser ones
-        search_level(rows, space, levels[l], l == level_of[i], static_cast<std::uint32_t>(i), found[b]);
+        search_level(sites, space, levels[l], l == level_of[i], static_cast<std::uint32_t>(i), found[b]);
       }
     }
   });
@@ -197,11 +198,11 @@ std::vector<PairRef> find_pairs(const std::vector<GrainRow>& rows, const SearchS
   return pairs;
 }
 
-std::vector<PairRef> find_pairs_brute_force(const std::vector<GrainRow>& rows, const SearchSpace& space) {
+std::vector<PairRef> find_pairs_brute_force(const std::vector<GrainSite>& sites, const SearchSpace& space) {
   std::vector<PairRef> pairs;
-  for (std::uint32_t i = 0; i < rows.size(); ++i) {
-    for (std::uint32_t j = i + 1; j < rows.size(); ++j) {
-      if (near(rows[i], rows[j], space)) pairs.push_back(ordered(rows, i, j));
+  for (std::uint32_t i = 0; i < sites.size(); ++i) {
+    for (std::uint32_t j = i + 1; j < sites.size(); ++j) {
+      if (are_near(sites[i], sites[j], space)) pairs.push_back(ordered(sites, i, j));
     }
   }
   return pairs;

@@ -28,11 +28,14 @@ struct SearchSpace {
   }
 };
 
-/// All pairs whose surfaces are nearer than `skin`, in an order that depends on the rows' order alone.
-std::vector<PairRef> find_pairs(const std::vector<GrainRow>& rows, const SearchSpace& space);
+/// Are the surfaces nearer than the skin?
+bool are_near(const GrainSite& a, const GrainSite& b, const SearchSpace& space);
+
+/// All pairs whose surfaces are nearer than `skin`, in an order that depends on the sites' order alone.
+std::vector<PairRef> find_pairs(const std::vector<GrainSite>& sites, const SearchSpace& space);
 
 /// The same by trying every pair: the reference that find_pairs is held against.
-std::vector<PairRef> find_pairs_brute_force(const std::vector<GrainRow>& rows, const SearchSpace& space);
+std::vector<PairRef> find_pairs_brute_force(const std::vector<GrainSite>& sites, const SearchSpace& space);
 
 /// The shortest of a vector's images through the periodic faces: at most one period is added or taken away
 /// along each axis; a period of 0 changes nothing.

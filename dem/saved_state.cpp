@@ -43,22 +43,20 @@ SavedState Simulation::save() const {
   std::vector<double>&pair_springs = s.real["pair_springs"], &wall_springs = s.real["wall_springs"];
   std::vector<std::int64_t>&pair_ids = s.integer["pair_ids"], &wall_ids = s.integer["wall_ids"];
   for (const std::uint32_t slot : slots_by_id()) {
-    const GrainRow& g = rows_[slot];
-    const GrainMotion& m = motions_[slot];
+    const GrainRow g = grains_.row(slot);
+    const GrainAcceleration& a = grains_.accelerations()[slot];
     append(grains, g.position());
     append(grains, g.velocity());
     append(grains, g.spin());
-    append(grains, m.acceleration);
-    append(grains, m.angular);
+    append(grains, a.linear);
+    append(grains, a.angular);
     grains.insert(grains.end(), {g.radius, g.mass});
     labels.insert(labels.end(), {g.id, g.material, g.layer});
     for (const Adjacent& e : pair_contacts_.of(slot)) {
       if (e.second || !pair_contacts_.touching(e.pair)) continue;
-      pair_ids.insert(pair_ids.end(), {g.id, rows_[e.slot].id});
-      append(pair_springs,
-             pair_contacts_.sliding.empty() ? TangentialSpring<double>{} : pair_contacts_.sliding[e.pair]);
-      append(pair_springs,
-             pair_contacts_.rolling.empty() ? TangentialSpring<double>{} : pair_contacts_.rolling[e.pair]);
+      pair_ids.insert(pair_ids.end(), {g.id, grains_.labels()[e.slot].id});
+      append(pair_springs, pair_contacts_.sliding(e.pair));
+      append(pair_springs, pair_contacts_.rolling(e.pair));
     }
     for (const WallContact& w : wall_contacts_.of(slot)) {
       if (!w.touching()) continue;
@@ -95,19 +93,14 @@ void Simulation::restore(const SavedState& s) {
     throw InputError("checkpoint: made with another time step; start the run anew");
   }
   step_ = counters[0], next_id_ = counters[1], lost_ = counters[2], counted_ids_ = counters[3];
-  rows_.assign(n, {});
-  motions_.assign(n, {});
+  grains_.clear();
+  grains_.set_stepping(false);
   for (std::size_t i = 0; i < n; ++i) {
     const std::size_t at = i * kRealsPerGrain;
     const Vec3d p = vec_at(grains, at), v = vec_at(grains, at + 3), w = vec_at(grains, at + 6);
-    GrainRow& g = rows_[i];
-    g.x = p.x, g.y = p.y, g.z = p.z, g.vx = v.x, g.vy = v.y, g.vz = v.z, g.wx = w.x, g.wy = w.y, g.wz = w.z;
-    g.radius = grains[at + 15], g.mass = grains[at + 16];
-    g.id = labels[3 * i];
-    g.material = static_cast<std::uint16_t>(labels[3 * i + 1]);
-    g.layer = static_cast<std::int32_t>(labels[3 * i + 2]);
-    motions_[i] = {vec_at(grains, at + 9), 1 / g.mass, vec_at(grains, at + 12),
-                   1 / (0.4 * g.mass * g.radius * g.radius)};
+    grains_.add({p.x, p.y, p.z, grains[at + 15], v.x, v.y, v.z, grains[at + 16], w.x, w.y, w.z, labels[3 * i],
+                 static_cast<std::int32_t>(labels[3 * i + 2]), static_cast<std::uint16_t>(labels[3 * i + 1])},
+                {vec_at(grains, at + 9), vec_at(grains, at + 12)});
   }
   const auto& walls = array_of(s.real, "walls");
   const auto& since = array_of(s.integer, "walls_since");
@@ -148,17 +141,12 @@ void Simulation::restore_springs(const SavedState& s) {
     throw InputError("checkpoint: arrays of unequal length; start the run anew");
   }
   std::vector<std::uint32_t> slot_of_id(static_cast<std::size_t>(next_id_), PairContacts::kNoSlot);
-  for (std::uint32_t slot = 0; slot < rows_.size(); ++slot)
-    slot_of_id[static_cast<std::size_t>(rows_[slot].id)] = slot;
+  for (std::uint32_t slot = 0; slot < grains_.size(); ++slot) slot_of_id[id_of(slot)] = slot;
   for (std::size_t k = 0; 2 * k < pair_ids.size(); ++k) {
     for (const Adjacent& e : pair_contacts_.of(slot_of_id.at(static_cast<std::size_t>(pair_ids[2 * k])))) {
-      if (rows_[e.slot].id != pair_ids[2 * k + 1]) continue;
-      pair_contacts_.state[e.pair] = ContactState::touching;
-      const TangentialSpring<double> sliding = spring_at(pair_springs, kRealsPerContact * k),
-                                     rolling =
-                                         spring_at(pair_springs, kRealsPerContact * k + kRealsPerSpring);
-      if (!pair_contacts_.sliding.empty()) pair_contacts_.sliding[e.pair] = sliding;
-      if (!pair_contacts_.rolling.empty()) pair_contacts_.rolling[e.pair] = rolling;
+      if (grains_.labels()[e.slot].id != pair_ids[2 * k + 1]) continue;
+      pair_contacts_.set_touching(e.pair, spring_at(pair_springs, kRealsPerContact * k),
+                                  spring_at(pair_springs, kRealsPerContact * k + kRealsPerSpring));
     }
   }
   for (std::size_t k = 0; 2 * k < wall_ids.size(); ++k) {

@@ -6,13 +6,16 @@
 
 #include "base/error.h"
 #include "base/parallel.h"
-#include "dem/row_order.h"
+#include "dem/site_order.h"
 
 namespace interstice::dem {
 namespace {
 
-constexpr std::size_t kRowsPerBlock = 512;
 constexpr std::int64_t kRebuildsPerSort = 32;
+constexpr std::size_t kPartsPerThread = 4;
+/// Share of the skin beyond which a gap makes a pair far: far pairs need no look until grains have moved by
+/// it.
+constexpr double kNearGap = 1.0 / 3;
 
 Vec3d offset_at(const Vec3d& offset, const Vec3d& velocity, std::int64_t steps, double dt) {
   return offset + (static_cast<double>(steps) * dt) * velocity;
@@ -27,7 +30,9 @@ Simulation::Simulation(Model model, double time_step, const SimulationOptions& o
       kernels_(find_kernels(model_.laws, options.precision, options.energies)),
       motion_of_wall_(model_.walls.size()),
       wall_velocities_(model_.walls.size()),
-      pair_contacts_({keeps_spring(model_.laws), keeps_rolling_spring(model_.laws), options.energies}) {
+      grains_(options.precision),
+      pair_contacts_({keeps_spring(model_.laws), keeps_rolling_spring(model_.laws), options.energies},
+                     options.precision) {
   if (!(dt_ > 0) || !std::isfinite(dt_)) throw InputError("time step: must be positive and finite");
   for (std::size_t a = 0; a < model_.materials.size(); ++a) {
     for (std::size_t b = 0; b < model_.materials.size(); ++b) {
@@ -37,16 +42,6 @@ Simulation::Simulation(Model model, double time_step, const SimulationOptions& o
   }
   walls_.resize(model_.walls.size());
   place_walls();
-}
-
-template <class Body>
-void Simulation::for_rows(const Body& body) const {
-  const Blocks blocks{rows_.size(), kRowsPerBlock};
-  if (options_.reference) {
-    for (std::size_t b = 0; b < blocks.count(); ++b) body(b, blocks.begin(b), blocks.end(b));
-  } else {
-    for_each_block(blocks, body);
-  }
 }
 
 /// The engine's own guard, whatever made the grain: nothing that is no number reaches a kernel.
@@ -66,19 +61,14 @@ void Simulation::check_grain(const NewGrain& g) const {
 void Simulation::add_grains(std::span<const NewGrain> grains) {
   for (const NewGrain& g : grains) {
     check_grain(g);
-    GrainRow row{};
-    row.x = g.position.x, row.y = g.position.y, row.z = g.position.z;
-    row.vx = g.velocity.x, row.vy = g.velocity.y, row.vz = g.velocity.z;
-    row.wx = g.spin.x, row.wy = g.spin.y, row.wz = g.spin.z;
-    row.radius = g.radius;
-    row.mass = 4.0 / 3.0 * M_PI * g.radius * g.radius * g.radius * model_.materials[g.material].density;
-    row.id = next_id_++;
-    row.material = g.material;
-    row.layer = g.layer;
-    rows_.push_back(row);
+    const double mass =
+        4.0 / 3.0 * M_PI * g.radius * g.radius * g.radius * model_.materials[g.material].density;
+    const GrainRow row{g.position.x, g.position.y, g.position.z, g.radius,  g.velocity.x,
+                       g.velocity.y, g.velocity.z, mass,         g.spin.x,  g.spin.y,
+                       g.spin.z,     next_id_++,   g.layer,      g.material};
     // The first step's acceleration is gravity alone: exact for a grain in flight, first order for one in
     // contact.
-    motions_.push_back({model_.gravity, 1 / row.mass, {0, 0, 0}, 1 / (0.4 * row.mass * g.radius * g.radius)});
+    grains_.add(row, {model_.gravity, {0, 0, 0}});
     if (options_.energies) energies_.emplace_back().inserted = kinetic_energy(row);
   }
   list_valid_ = list_valid_ && grains.empty();
@@ -106,73 +96,22 @@ void Simulation::advance(std::int64_t steps) {
     begun_ = false;
     place_walls();
     rebuild_if_needed();
-    evaluate_pairs();
-    if (options_.energies) count_inserted_contacts();
-    finish_and_begin(s + 1 < steps);
+    evaluate_and_move(s + 1 < steps);
   }
 }
 
-void Simulation::begin_step() {
-  std::vector<PassReport> reports(Blocks{rows_.size(), kRowsPerBlock}.count());
-  for_rows([&](std::size_t b, std::size_t begin, std::size_t end) { reports[b] = begin_rows(begin, end); });
-  take_report(reports);
-}
-
-/// Collects the forces, completes the velocities, and (to spare a pass over memory) begins the next step.
-void Simulation::finish_and_begin(bool begin_next) {
-  std::vector<PassReport> reports(Blocks{rows_.size(), kRowsPerBlock}.count());
-  const StepView view = step_view();
-  for_rows([&](std::size_t b, std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) finish_row(view, i);
-    if (begin_next) reports[b] = begin_rows(begin, end);
-  });
-  if (begin_next) take_report(reports);
-}
-
-/// Synchronous Verlet: positions and velocities that the forces see all belong to the step's end. With
-/// half-step velocities a part of the approach leaks into the slip of large-small contacts (Vyas et al.,
-/// Comput. Phys. Commun. 310, 109524, 2025); v + a dt is as accurate as the positions and has no such lag.
-Simulation::PassReport Simulation::begin_rows(std::size_t begin, std::size_t end) {
-  PassReport report;
-  for (std::size_t i = begin; i < end; ++i) {
-    GrainRow& g = rows_[i];
-    const GrainMotion& m = motions_[i];
-    const Vec3d v = g.velocity();
-    const Vec3d step = dt_ * v + (0.5 * dt_ * dt_) * m.acceleration;
-    g.x += step.x, g.y += step.y, g.z += step.z;
-    g.vx += dt_ * m.acceleration.x, g.vy += dt_ * m.acceleration.y, g.vz += dt_ * m.acceleration.z;
-    g.wx += dt_ * m.angular.x, g.wy += dt_ * m.angular.y, g.wz += dt_ * m.angular.z;
-    if (options_.energies) {
-      energies_[static_cast<std::size_t>(g.id)].gravity += g.mass * dot(model_.gravity, step);
-    }
-    const double stepped = dot(step, step);
-    if (!(stepped <= 0.25 * g.radius * g.radius) && report.broken < 0) report.broken = g.id;
-    for (int axis = 0; axis < 3; ++axis) {
-      double& p = axis == 0 ? g.x : axis == 1 ? g.y : g.z;
-      const double lo = model_.domain.lo[axis], hi = model_.domain.hi[axis];
-      if (p >= lo && p < hi) continue;
-      if (model_.boundary[axis] == AxisBoundary::open) {
-        report.left = true;
-      } else {
-        double& built = axis == 0 ? g.built_x : axis == 1 ? g.built_y : g.built_z;
-        const double shift = p < lo ? hi - lo : lo - hi;
-        p += shift;
-        built += shift;
-      }
-    }
-    const Vec3d moved = g.position() - Vec3d{g.built_x, g.built_y, g.built_z};
-    report.moved_squared = std::max(report.moved_squared, dot(moved, moved));
-    report.speed_squared = std::max(report.speed_squared, dot(v, v));
-  }
-  return report;
+std::vector<GrainRow> Simulation::rows() const {
+  std::vector<GrainRow> all;
+  all.reserve(grains_.size());
+  for (std::size_t s = 0; s < grains_.size(); ++s) all.push_back(grains_.row(s));
+  return all;
 }
 
 void Simulation::take_report(const std::vector<PassReport>& reports) {
-  double moved = 0, speed = 0;
+  Four squared(0);
   bool left = false;
   for (const PassReport& r : reports) {
-    moved = std::max(moved, r.moved_squared);
-    speed = std::max(speed, r.speed_squared);
+    squared = max_of(squared, r.step_squared);
     left = left || r.left;
     if (r.broken >= 0) {
       throw UnstableError(
@@ -181,36 +120,50 @@ void Simulation::take_report(const std::vector<PassReport>& reports) {
           " s): the time step is too large for these contacts or speeds; use a smaller [time] step");
     }
   }
-  moved_ = std::sqrt(moved);
-  fastest_ = std::sqrt(speed);
+  const Vec3d longest = three(squared);
+  const double step = std::sqrt(longest.x + longest.y + longest.z);
+  moved_ += step;
+  moved_since_refresh_ += step;
+  fastest_ = step / dt_;
   begun_ = true;
+  grains_.set_stepping(true);
   if (left) remove_leavers();
 }
 
-bool Simulation::inside(const GrainRow& g) const {
+bool Simulation::inside(const Vec3d& position) const {
   for (int axis = 0; axis < 3; ++axis) {
     if (model_.boundary[axis] != AxisBoundary::open) continue;
-    const double p = g.position()[axis];
+    const double p = position[axis];
     if (!(p >= model_.domain.lo[axis] && p < model_.domain.hi[axis])) return false;
   }
   return true;
 }
 
 void Simulation::remove_leavers() {
-  for (std::size_t i = 0; options_.energies && i < rows_.size(); ++i) {
-    if (!inside(rows_[i])) note_leaver(i);
+  std::vector<std::uint32_t> kept;
+  for (std::uint32_t i = 0; i < grains_.size(); ++i) {
+    if (inside(grains_.site(i).position())) {
+      kept.push_back(i);
+    } else if (options_.energies) {
+      note_leaver(i);
+    }
   }
-  std::size_t kept = 0;
-  for (std::size_t i = 0; i < rows_.size(); ++i) {
-    if (!inside(rows_[i])) continue;
-    rows_[kept] = rows_[i];
-    motions_[kept] = motions_[i];
-    ++kept;
-  }
-  lost_ += static_cast<std::int64_t>(rows_.size() - kept);
-  rows_.resize(kept);
-  motions_.resize(kept);
+  lost_ += static_cast<std::int64_t>(grains_.size() - kept.size());
+  grains_.take(kept);
   list_valid_ = false;
+}
+
+/// How far any grain is from where the list was built [m].
+double Simulation::farthest_moved() const {
+  const Blocks blocks{grains_.size(), 4096};
+  std::vector<double> farthest(blocks.count(), 0);
+  for_each_block(blocks, [&](std::size_t b, std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const Vec3d moved = grains_.site(i).position() - grains_.labels()[i].built;
+      farthest[b] = std::max(farthest[b], dot(moved, moved));
+    }
+  });
+  return std::sqrt(farthest.empty() ? 0 : *std::max_element(farthest.begin(), farthest.end()));
 }
 
 double Simulation::wall_travel() const {
@@ -224,18 +177,31 @@ double Simulation::wall_travel() const {
   return farthest;
 }
 
+/// `moved_` adds up the longest steps; where grains go to and fro it grows beyond how far they are, and is
+/// measured anew before anything is done about it.
 void Simulation::rebuild_if_needed() {
-  if (list_valid_ && moved_ + std::max(moved_, wall_travel()) < skin_) return;
-  rebuild();
+  const auto reaches = [&](double gap, bool walls) {
+    const auto at_least = [&](double g) {
+      return moved_ + std::max(moved_, walls ? wall_travel() : 0.0) >= g;
+    };
+    if (!at_least(gap)) return false;
+    moved_ = std::min(moved_, farthest_moved());
+    return at_least(0.75 * gap);  // else it would be measured again in a few steps
+  };
+  if (!list_valid_ || reaches(skin_, true)) {
+    rebuild();
+  } else if (2 * moved_since_refresh_ >= near_gap_) {
+    refresh({}, grains_.sites());
+  }
 }
 
 /// A skin that lasts some 60 steps at the present speed. Bits do not depend on it, only speed does.
-double Simulation::choose_skin() const {
+double Simulation::choose_skin(const std::vector<GrainSite>& sites) const {
   if (options_.skin > 0) return options_.skin;
   double radius_sum = 0, fastest = fastest_;
-  for (const GrainRow& g : rows_) radius_sum += g.radius;
+  for (const GrainSite& g : sites) radius_sum += g.radius;
   for (const WallMotion& m : motion_of_wall_) fastest = std::max(fastest, norm(m.velocity));
-  const double diameter = rows_.empty() ? 0 : 2 * radius_sum / static_cast<double>(rows_.size());
+  const double diameter = sites.empty() ? 0 : 2 * radius_sum / static_cast<double>(sites.size());
   return std::clamp(120 * fastest * dt_, 0.03 * diameter, 0.3 * diameter);
 }
 
@@ -246,9 +212,8 @@ SearchSpace Simulation::search_space() const {
 }
 
 /// How far bodies act on each other beyond contact [m], at most.
-double Simulation::attraction_reach() const {
-  double reach = 0, largest = 0;
-  for (const GrainRow& g : rows_) largest = std::max(largest, g.radius);
+double Simulation::attraction_reach(double largest) const {
+  double reach = 0;
   for (const PairConstants<double>& c : constants_) {
     if (model_.laws.cohesion == CohesionLaw::jkr)  // grows with R*, which is at most the radius (at a wall)
       reach = std::max(reach, jkr_reach(c.effective_modulus, c.work_of_adhesion, largest));
@@ -257,13 +222,11 @@ double Simulation::attraction_reach() const {
   return reach;
 }
 
-void Simulation::check_periodic_lengths() const {
-  double largest = 0;
-  for (const GrainRow& g : rows_) largest = std::max(largest, g.radius);
+void Simulation::check_periodic_lengths(double largest) const {
   for (int axis = 0; axis < 3; ++axis) {
     const double length = model_.domain.hi[axis] - model_.domain.lo[axis];
     if (model_.boundary[axis] != AxisBoundary::periodic ||
-        length > 2 * (2 * largest + skin_ + attraction_reach()))
+        length > 2 * (2 * largest + skin_ + attraction_reach(largest)))
       continue;
     throw InputError(
         "domain.box: the periodic axis " + std::string(1, "xyz"[axis]) +
@@ -271,30 +234,46 @@ void Simulation::check_periodic_lengths() const {
   }
 }
 
+/// Now and then, or when grains came or went: neighbours in space beside each other in memory.
+void Simulation::sort_grains(std::vector<GrainSite>& sites) {
+  if (sorted_at_ >= 0 && sites.size() == built_ids_.size() && rebuilds_ - sorted_at_ < kRebuildsPerSort)
+    return;
+  const std::vector<std::uint32_t> order = order_in_space(sites);
+  grains_.take(order);
+  sites = grains_.sites();
+  sorted_at_ = rebuilds_;
+}
+
 void Simulation::rebuild() {
-  skin_ = choose_skin();
-  check_periodic_lengths();
+  std::vector<GrainSite> sites = grains_.sites();
+  double largest = 0;
+  for (const GrainSite& g : sites) largest = std::max(largest, g.radius);
+  skin_ = choose_skin(sites);
+  near_gap_ = kNearGap * skin_;
+  check_periodic_lengths(largest);
   std::vector<std::uint32_t> slot_of_id(static_cast<std::size_t>(next_id_), PairContacts::kNoSlot);
   for (std::uint32_t s = 0; s < built_ids_.size(); ++s)
     slot_of_id[static_cast<std::size_t>(built_ids_[s])] = s;
-  if (sorted_at_ < 0 || rows_.size() != built_ids_.size() || rebuilds_ - sorted_at_ >= kRebuildsPerSort) {
-    sort_rows_in_space(rows_, motions_);
-    sorted_at_ = rebuilds_;
-  }
-  std::vector<std::uint32_t> old_slot(rows_.size());
-  for (std::size_t s = 0; s < rows_.size(); ++s)
-    old_slot[s] = slot_of_id[static_cast<std::size_t>(rows_[s].id)];
+  sort_grains(sites);
+  std::vector<std::uint32_t> old_slot(sites.size());
+  for (std::size_t s = 0; s < sites.size(); ++s)
+    old_slot[s] = slot_of_id[static_cast<std::size_t>(sites[s].id)];
 
   SearchSpace space = search_space();
-  space.skin += attraction_reach();
-  pair_contacts_.replace(options_.reference ? find_pairs_brute_force(rows_, space) : find_pairs(rows_, space),
-                         rows_, old_slot);
-  wall_contacts_.replace(rows_, walls_, space.skin, old_slot);
-  built_ids_.resize(rows_.size());
-  for (std::size_t s = 0; s < rows_.size(); ++s) {
-    GrainRow& g = rows_[s];
-    built_ids_[s] = g.id;
-    g.built_x = g.x, g.built_y = g.y, g.built_z = g.z;
+  attraction_ = attraction_reach(largest);
+  space.skin += attraction_;
+  candidates_ = options_.reference ? find_pairs_brute_force(sites, space) : find_pairs(sites, space);
+  refresh(old_slot, sites);
+  wall_contacts_.replace(sites, walls_, space.skin, old_slot);
+  built_ids_.resize(sites.size());
+  const auto material = [&](std::size_t s) {
+    return grains_.with_rows([&](const auto& rows) { return static_cast<std::int64_t>(rows[s].material); });
+  };
+  only_material_ = sites.empty() ? 0 : material(0);
+  for (std::size_t s = 0; s < sites.size(); ++s) {
+    built_ids_[s] = sites[s].id;
+    grains_.labels()[s].built = sites[s].position();
+    if (material(s) != only_material_) only_material_ = -1;
   }
   built_walls_ = walls_;
   moved_ = 0;
@@ -302,17 +281,41 @@ void Simulation::rebuild() {
   ++rebuilds_;
 }
 
+/// Of the candidates, those that may touch before grains have moved by half the gap.
+void Simulation::refresh(const std::vector<std::uint32_t>& old_slot, const std::vector<GrainSite>& sites) {
+  SearchSpace space = search_space();
+  space.skin = near_gap_ + attraction_;
+  const Blocks blocks{candidates_.size(), 4096};
+  std::vector<std::vector<PairRef>> near(blocks.count());
+  for_each_block(blocks, [&](std::size_t b, std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k)
+      if (are_near(sites[candidates_[k].a], sites[candidates_[k].b], space))
+        near[b].push_back(candidates_[k]);
+  });
+  std::vector<PairRef> pairs;
+  pairs.reserve(candidates_.size());
+  for (const auto& n : near) pairs.insert(pairs.end(), n.begin(), n.end());
+  pair_contacts_.replace(pairs, sites, old_slot, parts());
+  moved_since_refresh_ = 0;
+}
+
+/// One part for one thread; several a thread else, so that the fastest does not wait for the slowest.
+Parts Simulation::parts() const {
+  const auto threads = static_cast<std::size_t>(tbb::this_task_arena::max_concurrency());
+  return {grains_.size(), options_.reference || threads == 1 ? 1 : kPartsPerThread * threads};
+}
+
 std::size_t Simulation::bytes() const {
-  return rows_.capacity() * sizeof(GrainRow) + motions_.capacity() * sizeof(GrainMotion) +
-         pair_contacts_.bytes() + wall_contacts_.bytes() + built_ids_.capacity() * sizeof(std::int64_t) +
-         energies_.capacity() * sizeof(GrainEnergy);
+  return grains_.bytes() + pair_contacts_.bytes() + wall_contacts_.bytes() +
+         built_ids_.capacity() * sizeof(std::int64_t) + energies_.capacity() * sizeof(GrainEnergy);
 }
 
 std::vector<std::uint32_t> Simulation::slots_by_id() const {
-  std::vector<std::uint32_t> slots(rows_.size());
+  std::vector<std::uint32_t> slots(grains_.size());
   for (std::uint32_t s = 0; s < slots.size(); ++s) slots[s] = s;
-  std::sort(slots.begin(), slots.end(),
-            [&](std::uint32_t l, std::uint32_t r) { return rows_[l].id < rows_[r].id; });
+  std::sort(slots.begin(), slots.end(), [&](std::uint32_t l, std::uint32_t r) {
+    return grains_.labels()[l].id < grains_.labels()[r].id;
+  });
   return slots;
 }
 
@@ -320,7 +323,7 @@ void Simulation::copy_columns(GrainColumns& out) const {
   const std::vector<std::uint32_t> slots = slots_by_id();
   const auto fill = [&](auto& column, auto value) {
     column.resize(slots.size());
-    for (std::size_t i = 0; i < slots.size(); ++i) column[i] = value(rows_[slots[i]]);
+    for (std::size_t i = 0; i < slots.size(); ++i) column[i] = value(grains_.row(slots[i]));
   };
   fill(out.id, [](const GrainRow& g) { return g.id; });
   fill(out.x, [](const GrainRow& g) { return g.x; });

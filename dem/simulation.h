@@ -14,10 +14,12 @@
 #include "dem/columns.h"
 #include "dem/contacts.h"
 #include "dem/energy.h"
-#include "dem/grains.h"
+#include "dem/grain_motion.h"
+#include "dem/grain_store.h"
 #include "dem/kernels/kernels.h"
 #include "dem/model.h"
 #include "dem/neighbours.h"
+#include "dem/reals.h"
 
 namespace interstice::dem {
 
@@ -53,7 +55,7 @@ class Simulation {
   std::int64_t step() const { return step_; }
   double time() const { return static_cast<double>(step_) * dt_; }
   double time_step() const { return dt_; }
-  std::size_t grains() const { return rows_.size(); }
+  std::size_t grains() const { return grains_.size(); }
   std::int64_t grains_added() const { return next_id_; }
   std::int64_t grains_lost() const { return lost_; }
   const Model& model() const { return model_; }
@@ -64,8 +66,10 @@ class Simulation {
   SavedState save() const;
   void restore(const SavedState& state);
 
-  /// Read access for statistics and insertion, by ascending id (see statistics.h, rain.h).
-  std::span<const GrainRow> rows() const { return rows_; }
+  /// Read access for statistics and insertion (see statistics.h, rain.h).
+  GrainRow row(std::size_t slot) const { return grains_.row(slot); }
+  GrainSite site(std::size_t slot) const { return grains_.site(slot); }
+  std::vector<GrainRow> rows() const;
   const PairContacts& pair_contacts() const { return pair_contacts_; }
   const WallContacts& wall_contacts() const { return wall_contacts_; }
   std::vector<std::uint32_t> slots_by_id() const;
@@ -87,10 +91,13 @@ class Simulation {
     Vec3d offset{0, 0, 0};   // of the shape at `since` from the shape at time 0
     std::int64_t since = 0;  // step
   };
+  /// Of the domain; fourth lanes of no meaning.
+  struct Bounds {
+    Four lo, hi;
+  };
   /// What one block of grains reports of a pass.
   struct PassReport {
-    double moved_squared = 0;  // farthest from where the list was built [m^2]
-    double speed_squared = 0;
+    Four step_squared{0};      // the largest along each axis [m^2]
     bool left = false;         // a grain crossed an open face
     std::int64_t broken = -1;  // id of a grain whose motion is no longer sane
   };
@@ -99,27 +106,42 @@ class Simulation {
   void place_walls();
   double wall_travel() const;
   void begin_step();
-  PassReport begin_rows(std::size_t begin, std::size_t end);
-  void finish_and_begin(bool begin_next);
+  template <class Body>
+  std::vector<PassReport> for_row_blocks(const Body& body);
+  template <class Real>
+  void begin_row(PairRow<Real>& row, std::size_t slot, const Four& velocity, const Four& spin,
+                 const Four& acceleration, const Four& angular, double dt, const Bounds& bounds,
+                 PassReport& report);
+  template <class Real>
+  PassReport move_rows(PairRow<Real>* rows, const StepView& view, std::size_t begin, std::size_t end,
+                       bool begin_next);
+  double farthest_moved() const;
+  void evaluate_and_move(bool begin_next);
+  template <class Real>
+  void evaluate_and_move(PairRow<Real>* rows, bool begin_next);
+  template <class Real>
+  bool wrap_or_leave(PairRow<Real>& row, GrainLabel& label) const;
   void take_report(const std::vector<PassReport>& reports);
-  bool inside(const GrainRow& grain) const;
+  bool inside(const Vec3d& position) const;
   void remove_leavers();
   void rebuild_if_needed();
   void rebuild();
-  double choose_skin() const;
-  void check_periodic_lengths() const;
+  double choose_skin(const std::vector<GrainSite>& sites) const;
+  void check_periodic_lengths(double largest) const;
+  void sort_grains(std::vector<GrainSite>& sites);
+  void refresh(const std::vector<std::uint32_t>& old_slot, const std::vector<GrainSite>& sites);
+  Parts parts() const;
   void restore_springs(const SavedState& state);
   void restore_energies(const SavedState& state);
-  double attraction_reach() const;
+  double attraction_reach(double largest) const;
   StepView step_view();
-  void evaluate_pairs();
-  void finish_row(const StepView& view, std::size_t i);
   void count_inserted_contacts();
   double inserted_on_wall(const GrainRow& grain, const WallContact& contact) const;
+  void add_walls(const StepView& view, std::size_t i, std::span<WallContact> walls, Four& force,
+                 Four& torque);
   void add_heat(std::size_t i, const WallTotals& walls);
+  std::size_t id_of(std::size_t slot) const { return static_cast<std::size_t>(grains_.labels()[slot].id); }
   void note_leaver(std::size_t i);
-  template <class Body>
-  void for_rows(const Body& body) const;
 
   Model model_;
   double dt_;
@@ -131,8 +153,8 @@ class Simulation {
   std::vector<WallMotion> motion_of_wall_;
   std::vector<Vec3d> wall_velocities_;
 
-  std::vector<GrainRow> rows_;
-  std::vector<GrainMotion> motions_;
+  GrainStore grains_;
+  std::int64_t only_material_ = -1;  // of all grains when the list was built; -1 where they differ
   PairContacts pair_contacts_;
   WallContacts wall_contacts_;
 
@@ -145,9 +167,15 @@ class Simulation {
   bool list_valid_ = false;
   bool begun_ = false;  // the step after step_ has been begun
   double skin_ = 0;
-  double moved_ = 0, fastest_ = 0;
-  std::vector<Shape> built_walls_;       // as they stood when the list was built
-  std::vector<std::int64_t> built_ids_;  // ids by slot when the list was built
+  std::vector<PairRef> candidates_;  // nearer than the skin when they were found
+  double near_gap_ = 0;              // [m] of the pairs worked on, when they were chosen from the candidates
+  double attraction_ = 0;            // how far bodies attract each other [m]
+  double moved_since_refresh_ = 0;   // at most [m]
+  double moved_ = 0;                 // at most this far is any grain from where the list was built [m]
+  double fastest_ = 0;               // a bound of the speed in the last step [m/s]
+  std::vector<Shape> built_walls_;   // as they stood when the list was built
+  std::vector<std::int64_t>
+      built_ids_;  // ids by slot when the list was built, where slots have changed since
   std::int64_t rebuilds_ = 0, sorted_at_ = -1;
 };
 

@@ -12,13 +12,12 @@ namespace {
 
 constexpr double kFootprintCell = 50e-6;  // [m]
 
-/// Calls body(a, b, pair) for every touching pair, by ascending ids.
+/// Calls body(slot a, slot b, pair) for every touching pair, by ascending ids.
 template <class Body>
 void for_touching_pairs(const Simulation& sim, const Body& body) {
-  const auto rows = sim.rows();
   for (const std::uint32_t slot : sim.slots_by_id()) {
     for (const Adjacent& e : sim.pair_contacts().of(slot)) {
-      if (!e.second && sim.pair_contacts().touching(e.pair)) body(rows[slot], rows[e.slot], e.pair);
+      if (!e.second && sim.pair_contacts().touching(e.pair)) body(slot, e.slot, e.pair);
     }
   }
 }
@@ -55,8 +54,9 @@ ContactStatistics contact_statistics(const Simulation& sim) {
   ContactStatistics s;
   double sum = 0, normal_sum = 0;
   const SearchSpace space = sim.search_space();
-  for_touching_pairs(sim, [&](const GrainRow& a, const GrainRow& b, std::uint32_t pair) {
-    const Vec3d force = sim.pair_contacts().results[pair].force;
+  for_touching_pairs(sim, [&](std::uint32_t slot_a, std::uint32_t slot_b, std::uint32_t pair) {
+    const GrainSite a = sim.site(slot_a), b = sim.site(slot_b);
+    const Vec3d force = sim.pair_contacts().force(pair);
     const Vec3d apart = separation(a.position(), b.position(), space);
     const double magnitude = norm(force), distance = norm(apart);
     ++s.contacts;
@@ -132,7 +132,8 @@ StepCheck check_step(const Simulation& sim) {
     const double ratio = sim.time_step() * std::sqrt(stiffness / mass);
     if (ratio > worst.ratio) worst.ratio = ratio, worst.grain_a = a, worst.grain_b = b;
   };
-  for_touching_pairs(sim, [&](const GrainRow& a, const GrainRow& b, std::uint32_t) {
+  for_touching_pairs(sim, [&](std::uint32_t slot_a, std::uint32_t slot_b, std::uint32_t) {
+    const GrainRow &a = rows[slot_a], &b = rows[slot_b];
     const double reach = a.radius + b.radius;
     const double overlap = reach - norm(separation(a.position(), b.position(), space));
     const PairConstants<double>& c = sim.constants(a.material, b.material);
@@ -141,11 +142,11 @@ StepCheck check_step(const Simulation& sim) {
     const double mass = a.mass * b.mass / (a.mass + b.mass);
     consider(stiffness, mass, a.id, b.id);
     const double gamma = decay_rate(c, stiffness, mass);
-    decay[static_cast<std::size_t>(&a - rows.data())] += gamma / a.mass;
-    decay[static_cast<std::size_t>(&b - rows.data())] += gamma / b.mass;
+    decay[slot_a] += gamma / a.mass;
+    decay[slot_b] += gamma / b.mass;
     const double coupling = stiffness / std::sqrt(a.mass * b.mass);
-    bound[static_cast<std::size_t>(&a - rows.data())] += stiffness / a.mass + coupling;
-    bound[static_cast<std::size_t>(&b - rows.data())] += stiffness / b.mass + coupling;
+    bound[slot_a] += stiffness / a.mass + coupling;
+    bound[slot_b] += stiffness / b.mass + coupling;
   });
   for (std::size_t slot = 0; slot < rows.size(); ++slot) {
     const GrainRow& g = rows[slot];

@@ -33,17 +33,17 @@ const PairConstants<Real>& constants_of(const StepView& v, std::size_t a, std::s
 }
 
 /// Is a JKR neck at this (negative) overlap still whole?
-template <class Real>
-bool neck_holds(const PairConstants<Real>& c, Real effective_radius, Real overlap) {
+template <class T>
+auto neck_holds(const PairConstants<T>& c, const T& effective_radius, const T& overlap) {
   return -overlap <= jkr_reach(c.effective_modulus, c.work_of_adhesion, effective_radius);
 }
 
 /// What tears with the neck: the work that drawing it out has taken [J].
-template <class Real>
-double tear_heat(const PairConstants<Real>& c, Real effective_radius) {
-  const Real reach = jkr_reach(c.effective_modulus, c.work_of_adhesion, effective_radius);
-  const Real a = jkr_contact_radius(c.effective_modulus, c.work_of_adhesion, effective_radius, -reach);
-  return static_cast<double>(jkr_energy(c.effective_modulus, c.work_of_adhesion, effective_radius, a));
+template <class T>
+T tear_heat(const PairConstants<T>& c, const T& effective_radius) {
+  const T reach = jkr_reach(c.effective_modulus, c.work_of_adhesion, effective_radius);
+  const T a = jkr_contact_radius(c.effective_modulus, c.work_of_adhesion, effective_radius, -reach);
+  return jkr_energy(c.effective_modulus, c.work_of_adhesion, effective_radius, a);
 }
 
 }  // namespace interstice::dem

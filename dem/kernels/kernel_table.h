@@ -12,9 +12,9 @@ namespace interstice::dem {
 template <class L, class Real>
 void pairs_entry(const Laws& chosen, const StepView& v, std::size_t begin, std::size_t end) {
   if constexpr (std::is_same_v<L, Laws>) {
-    evaluate_pairs<Laws, Real>(chosen, v, begin, end);
+    evaluate_groups<Laws, Real>(chosen, v, begin, end);
   } else {
-    evaluate_pairs<L, Real>(L{}, v, begin, end);
+    evaluate_groups<L, Real>(L{}, v, begin, end);
   }
 }
 

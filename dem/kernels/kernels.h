@@ -4,34 +4,24 @@
 
 #include "dem/contact/contact.h"
 #include "dem/contacts.h"
-#include "dem/grains.h"
+#include "dem/grain_store.h"
 #include "dem/model.h"
 #include "dem/neighbours.h"
 
 namespace interstice::dem {
 
-enum class Precision {
-  real64,  ///< everything in double
-  mixed,   ///< positions, overlaps and motion in double; laws and forces in single
-};
-
-/// What the force loops see: trivially copyable, owns nothing. Memories are null where the laws keep none,
-/// heat is null where no energies are kept.
+/// What the force loops see: trivially copyable, owns nothing.
 struct StepView {
-  const GrainRow* rows;
+  const void* rows;                              // PairRow of the kernels' number type
   Vec3d period;                                  // of the domain [m]; 0 along axes that are not periodic
   double dt;                                     // [s]
   double slider_velocity;                        // [m/s]
   const PairConstants<double>* constants;        // materials x materials
   const PairConstants<float>* constants_single;  // the same
   std::size_t materials;
+  std::int64_t only_material;  // of all grains; -1 where they differ
 
-  const PairRef* pairs;
-  ContactState* state;
-  TangentialSpring<double>* sliding;
-  TangentialSpring<double>* rolling;
-  PairResult* results;
-  PairHeat* heat;
+  PairView pairs;
 
   const Shape* walls;
   const Vec3d* wall_velocities;
@@ -46,7 +36,7 @@ struct WallTotals {
 };
 
 struct ForceKernels {
-  /// Evaluates the pairs [begin, end).
+  /// Evaluates the groups of pairs [begin, end).
   void (*pairs)(const Laws&, const StepView&, std::size_t begin, std::size_t end);
   /// Evaluates one grain's wall contacts.
   void (*walls)(const Laws&, const StepView&, const GrainRow&, std::span<WallContact>, WallTotals&);

@@ -1,100 +1,196 @@
-// The loop over pairs of grains, for any laws and number type.
+// The loop over groups of pairs, for any laws and number type: a pair a lane. What may differ from pair to
+// pair is a mask or a select, so that a pair's bits do not depend on its neighbours in the list.
 #pragma once
 
+#include <bit>
+
 #include "dem/kernels/geometry.h"
+#include "dem/kernels/pair_rows.h"
 
 namespace interstice::dem {
 
-/// The pair k does not act on its grains any more; what its springs still hold is lost.
-template <class L>
-void part_pair(const L& laws, const StepView& v, std::size_t k, double heat) {
-  if (v.heat) v.heat[k] = {0, 0, 0, heat};
-  if (v.state[k] == ContactState::apart) return;
-  if (v.heat && laws.tangential == TangentialLaw::mindlin) v.heat[k].sliding = spring_energy(v.sliding[k]);
-  if (v.heat && laws.rolling == RollingLaw::epsd2) v.heat[k].rolling = spring_energy(v.rolling[k]);
-  v.state[k] = ContactState::apart;
-  if (laws.tangential == TangentialLaw::mindlin) v.sliding[k] = {};
-  if (laws.rolling == RollingLaw::epsd2) v.rolling[k] = {};
+/// Which pairs of a group do what in this step, a bit a pair.
+struct PairStates {
+  std::uint32_t before;      // touching after the last step
+  std::uint32_t touching;    // now
+  std::uint32_t torn;        // necks that tear now
+  std::uint32_t attracting;  // across a gap
+  std::uint32_t parted;      // had a memory that is lost now
+};
+
+template <class L, class P>
+PairStates pair_states(const L& laws, const GroupBits& bits, const PairGeometry<P>& g,
+                       const PairConstants<P>& c, const P& effective_radius, P& attraction) {
+  PairStates s{};
+  s.before = bits.touching;
+  const std::uint32_t overlapping = (g.overlap > P(0)).bits() & bits.listed;
+  s.touching = overlapping;
+  if (laws.cohesion == CohesionLaw::jkr) {
+    const std::uint32_t necks = bits.touching & ~overlapping;
+    const std::uint32_t holding = necks != 0 ? neck_holds(c, effective_radius, g.overlap).bits() & necks : 0;
+    s.touching |= holding;
+    s.torn = necks & ~holding;
+  } else if (laws.cohesion == CohesionLaw::van_der_waals) {
+    attraction = van_der_waals_attraction(c.hamaker_constant, c.cutoff, c.range, effective_radius, g.overlap);
+    s.attracting = (attraction > P(0)).bits() & bits.listed & ~overlapping;
+  }
+  s.parted = (s.before | bits.attracting) & ~s.touching;
+  return s;
 }
 
-/// Two grains that attract each other across a gap.
-template <class L, class Real>
-void attract_pair(const L& laws, const StepView& v, std::size_t k, const Vec3d& normal, Real attraction) {
-  part_pair(laws, v, k, 0);
-  v.state[k] = ContactState::attracting;
-  v.results[k] = {-static_cast<double>(attraction) * normal, {0, 0, 0}, {0, 0, 0}};
+/// Springs of a group, by number and lane.
+template <class P>
+TangentialSpring<P> load_spring(const RealOf<P>* at) {
+  return {{P::load(at), P::load(at + kLanes), P::load(at + 2 * kLanes)}, P::load(at + 3 * kLanes)};
+}
+template <class P>
+void store_spring(const TangentialSpring<P>& spring, const typename P::M& kept, RealOf<P>* at) {
+  select(kept, spring.force.x, P(0)).store(at);
+  select(kept, spring.force.y, P(0)).store(at + kLanes);
+  select(kept, spring.force.z, P(0)).store(at + 2 * kLanes);
+  select(kept, spring.stiffness, P(0)).store(at + 3 * kLanes);
 }
 
-template <class L, class Real>
-void touch_pair(const L& laws, const StepView& v, std::size_t k, const ContactKinematics<Real>& kin,
-                const PairConstants<Real>& c, double arm_a, double arm_b) {
-  ContactMemory<Real> memory{};
-  if (laws.tangential == TangentialLaw::mindlin) memory.sliding = as<Real>(v.sliding[k]);
-  if (laws.rolling == RollingLaw::epsd2) memory.rolling = as<Real>(v.rolling[k]);
-  const StepConstants<Real> step{static_cast<Real>(v.dt), static_cast<Real>(v.slider_velocity)};
-  const ContactForce<Real> f = evaluate_contact(laws, kin, c, memory, step);
-  v.state[k] = ContactState::touching;
-  PairResult& result = v.results[k];
-  result.force = as_double(f.force);
-  if (laws.tangential != TangentialLaw::none || laws.rolling != RollingLaw::none) {
-    const Vec3d turning = as_double(cross(kin.normal, f.tangential)), rolling = as_double(f.rolling_torque);
-    result.torque_a = rolling - arm_a * turning;
-    result.torque_b = -rolling - arm_b * turning;
-  }
-  if (laws.tangential == TangentialLaw::mindlin) v.sliding[k] = as_double(f.memory.sliding);
-  if (laws.rolling == RollingLaw::epsd2) v.rolling[k] = as_double(f.memory.rolling);
-  if (v.heat) {
-    v.heat[k] = {static_cast<double>(f.heat.damping), static_cast<double>(f.heat.sliding),
-                 static_cast<double>(f.heat.rolling), 0};
+/// Half a pair's results to each of its ends.
+template <class P>
+void store_ends(const PairEnds* ends, const Vec3<P>& force, const Vec3<P>& torque_a, const Vec3<P>& torque_b,
+                RealOf<P>* end_forces) {
+  using Real = RealOf<P>;
+  const simd::TriplesStorer<Real, kLanes> a(force, torque_a), b(-force, torque_b);
+  simd::unrolled<kLanes>([&](auto lane) {
+    constexpr int i = decltype(lane)::value;
+    a.template store<i>(end_forces + kEndReals<Real> * ends[i].a);
+    b.template store<i>(end_forces + kEndReals<Real> * ends[i].b);
+  });
+}
+
+template <class P>
+void store_heat(const PairStates& s, const ContactForce<P>& f, const TangentialSpring<P>& sliding,
+                const TangentialSpring<P>& rolling, const P& torn, PairHeat* heat) {
+  using M = typename P::M;
+  const M touching = M::from_bits(s.touching), parted = M::from_bits(s.parted);
+  const P lost_sliding = select(parted, spring_energy(sliding), P(0));
+  const P lost_rolling = select(parted, spring_energy(rolling), P(0));
+  const P adhesion = select(M::from_bits(s.torn), torn, P(0));
+  RealOf<P> columns[4][kLanes];
+  select(touching, f.heat.damping, P(0)).store(columns[0]);
+  select(touching, f.heat.sliding, lost_sliding).store(columns[1]);
+  select(touching, f.heat.rolling, lost_rolling).store(columns[2]);
+  adhesion.store(columns[3]);
+  for (std::size_t i = 0; i < kLanes; ++i) {
+    heat[i] = {static_cast<double>(columns[0][i]), static_cast<double>(columns[1][i]),
+               static_cast<double>(columns[2][i]), static_cast<double>(columns[3][i])};
   }
 }
 
-template <class L, class Real>
-void evaluate_pair(const L& laws, const StepView& v, std::size_t k) {
-  const GrainRow& a = v.rows[v.pairs[k].a];
-  const GrainRow& b = v.rows[v.pairs[k].b];
-  const Vec3d apart = nearest_image(a.position() - b.position(), v.period);
-  const double reach = a.radius + b.radius, d2 = dot(apart, apart);
-  const bool overlap = d2 < reach * reach;
-  const bool necked = laws.cohesion == CohesionLaw::jkr && v.state[k] == ContactState::touching;
-  if (!overlap && !necked && laws.cohesion != CohesionLaw::van_der_waals) return part_pair(laws, v, k, 0);
-
-  const PairConstants<Real>& c = constants_of<Real>(v, a.material, b.material);
-  const double d = d2 > 0 ? std::sqrt(d2) : 1e-6 * reach;
-  const Vec3d normal = d2 > 0 ? (1 / d) * apart : Vec3d{1, 0, 0};  // coincident centres: a fixed direction
-  ContactKinematics<Real> kin;
-  kin.overlap = static_cast<Real>(reach - d);
-  kin.effective_radius = static_cast<Real>(a.radius * b.radius / reach);
-  if (!overlap) {
-    if (necked && !neck_holds(c, kin.effective_radius, kin.overlap)) {
-      return part_pair(laws, v, k, tear_heat(c, kin.effective_radius));
-    }
-    if (laws.cohesion == CohesionLaw::van_der_waals) {
-      const Real attraction =
-          van_der_waals_attraction(c.hamaker_constant, c.cutoff, c.range, kin.effective_radius, kin.overlap);
-      if (attraction > 0) return attract_pair(laws, v, k, normal, attraction);
-      return part_pair(laws, v, k, 0);
-    }
-  }
-  kin.normal = as<Real>(normal);
-  kin.effective_mass = static_cast<Real>(a.mass * b.mass / (a.mass + b.mass));
+/// How the surfaces of a group's grains move against each other.
+template <class L, class P>
+ContactKinematics<P> pair_kinematics(const L& laws, const PairGeometry<P>& g, const PairRows<P>& a,
+                                     const PairRows<P>& b, const P& effective_radius, P& arm_a, P& arm_b) {
+  ContactKinematics<P> kin;
+  const bool beyond = laws.cohesion == CohesionLaw::jkr;
+  kin.overlap = beyond ? g.overlap : max_of(g.overlap, P(0));
+  kin.effective_radius = effective_radius;
+  kin.effective_mass = a.mass * b.mass / (a.mass + b.mass);
+  kin.normal = g.normal;
   if (laws.cohesion == CohesionLaw::sjkr) {
-    kin.area = sphere_sphere_area(static_cast<Real>(a.radius), static_cast<Real>(b.radius),
-                                  static_cast<Real>(d), kin.overlap);
+    kin.area = sphere_sphere_area(g.radius_a, g.radius_b, g.distance, kin.overlap);
   }
-  const double arm_a = a.radius - 0.5 * (reach - d), arm_b = b.radius - 0.5 * (reach - d);
-  Vec3d velocity = a.velocity() - b.velocity();
+  arm_a = g.radius_a - P(0.5) * kin.overlap;
+  arm_b = g.radius_b - P(0.5) * kin.overlap;
+  kin.velocity = a.velocity - b.velocity;
   if (laws.tangential != TangentialLaw::none) {
-    velocity -= cross(arm_a * a.spin() + arm_b * b.spin(), normal);
+    kin.velocity = kin.velocity - cross(arm_a * a.spin + arm_b * b.spin, g.normal);
   }
-  kin.velocity = as<Real>(velocity);
-  if (laws.rolling != RollingLaw::none) kin.relative_spin = as<Real>(a.spin() - b.spin());
-  touch_pair(laws, v, k, kin, c, arm_a, arm_b);
+  if (laws.rolling != RollingLaw::none) kin.relative_spin = a.spin - b.spin;
+  return kin;
 }
 
 template <class L, class Real>
-void evaluate_pairs(const L& laws, const StepView& v, std::size_t begin, std::size_t end) {
-  for (std::size_t k = begin; k < end; ++k) evaluate_pair<L, Real>(laws, v, k);
+void evaluate_group(const L& laws, const StepView& v, const PairConstants<simd::Pack<Real, kLanes>>* only,
+                    std::size_t group) {
+  using P = simd::Pack<Real, kLanes>;
+  using M = typename P::M;
+  const std::size_t first = group * kLanes;
+  GroupBits& bits = v.pairs.bits[group];
+  const PairRef* pairs = v.pairs.pairs + first;
+  const PairRows<P> a = load_rows<&PairRef::a, P>(v, pairs), b = load_rows<&PairRef::b, P>(v, pairs);
+  const PairGeometry<P> g = pair_geometry<P>(a.position, a.radius, b.position, b.radius, v.period);
+  const bool near_only = laws.cohesion != CohesionLaw::van_der_waals;
+  if (near_only && bits.touching == 0 && ((g.overlap > P(0)).bits() & bits.listed) == 0) {
+    const Vec3<P> none{P(0), P(0), P(0)};
+    store_ends(v.pairs.ends + first, none, none, none, static_cast<Real*>(v.pairs.end_forces));
+    if (v.pairs.heat) std::fill_n(v.pairs.heat + first, kLanes, PairHeat{});
+    return;  // still apart
+  }
+  const PairConstants<P> c = only ? *only : constants_of_group<Real>(v, pairs);
+  const P effective_radius = g.radius_a * g.radius_b * g.inverse_reach;
+  P attraction(0);
+  const PairStates s = pair_states(laws, bits, g, c, effective_radius, attraction);
+  const M touching = M::from_bits(s.touching);
+
+  P arm_a, arm_b;
+  const ContactKinematics<P> kin = pair_kinematics(laws, g, a, b, effective_radius, arm_a, arm_b);
+  Real* const sliding = static_cast<Real*>(v.pairs.sliding) + kSpringReals * first;
+  Real* const rolling = static_cast<Real*>(v.pairs.rolling) + kSpringReals * first;
+  ContactMemory<P> memory{};
+  if (laws.tangential == TangentialLaw::mindlin) memory.sliding = load_spring<P>(sliding);
+  if (laws.rolling == RollingLaw::epsd2) memory.rolling = load_spring<P>(rolling);
+  const StepConstants<P> step{P(v.dt), P(v.slider_velocity)};
+  const ContactForce<P> f = evaluate_contact(laws, kin, c, memory, step);
+
+  if (laws.tangential == TangentialLaw::mindlin) store_spring(f.memory.sliding, touching, sliding);
+  if (laws.rolling == RollingLaw::epsd2) store_spring(f.memory.rolling, touching, rolling);
+  const Vec3<P> none{P(0), P(0), P(0)};
+  Vec3<P> across = none;
+  if (laws.cohesion == CohesionLaw::van_der_waals)
+    across = select(M::from_bits(s.attracting), -attraction * g.normal, none);
+  Vec3<P> torque_a = none, torque_b = none;
+  if (laws.tangential != TangentialLaw::none || laws.rolling != RollingLaw::none) {
+    const Vec3<P> turning = cross(g.normal, f.tangential);
+    torque_a = select(touching, f.rolling_torque - arm_a * turning, none);
+    torque_b = select(touching, -f.rolling_torque - arm_b * turning, none);
+  }
+  store_ends(v.pairs.ends + first, select(touching, f.force, across), torque_a, torque_b,
+             static_cast<Real*>(v.pairs.end_forces));
+  if (v.pairs.heat) {
+    const P torn = s.torn != 0 ? tear_heat(c, effective_radius) : P(0);
+    store_heat(s, f, memory.sliding, memory.rolling, torn, v.pairs.heat + first);
+  }
+  bits.touching = static_cast<std::uint16_t>(s.touching);
+  bits.attracting = static_cast<std::uint16_t>(s.attracting);
+}
+
+/// Groups ahead for which rows are fetched: the earlier grains follow each other in memory, the later ones do
+/// not.
+inline constexpr std::size_t kFetchAhead = 4;
+
+template <class Real>
+void fetch_rows(const StepView& v, std::size_t group) {
+  const PairRef* pairs = v.pairs.pairs + group * kLanes;
+  const auto* rows = static_cast<const PairRow<Real>*>(v.rows);
+  simd::unrolled<kLanes>([&](auto lane) {
+    const PairRef& p = pairs[decltype(lane)::value];
+    const auto* row = reinterpret_cast<const char*>(rows + std::max(p.a, p.b));
+    __builtin_prefetch(row);
+    if constexpr (sizeof(PairRow<Real>) > 64) __builtin_prefetch(row + 64);
+  });
+}
+
+template <class L, class Real>
+[[gnu::flatten]] void evaluate_groups(const L& laws, const StepView& v, std::size_t begin, std::size_t end) {
+  using P = simd::Pack<Real, kLanes>;
+  const simd::FlushTinyNumbers flush;
+  if (v.only_material >= 0) {
+    const auto m = static_cast<std::size_t>(v.only_material);
+    const PairConstants<P> only = constants_of<Real>(v, m, m).template as<P>();
+    for (std::size_t g = begin; g < end; ++g) {
+      if (g + kFetchAhead < end) fetch_rows<Real>(v, g + kFetchAhead);
+      evaluate_group<L, Real>(laws, v, &only, g);
+    }
+  } else {
+    for (std::size_t g = begin; g < end; ++g) evaluate_group<L, Real>(laws, v, nullptr, g);
+  }
 }
 
 }  // namespace interstice::dem

@@ -48,7 +48,7 @@ void evaluate_wall(const L& laws, const StepView& v, const GrainRow& g, WallCont
   kin.overlap = static_cast<Real>(g.radius - surface.distance);
   kin.effective_radius = static_cast<Real>(g.radius);
   if (!overlap && necked && !neck_holds(c, kin.effective_radius, kin.overlap)) {
-    totals.heat.adhesion += tear_heat(c, kin.effective_radius);
+    totals.heat.adhesion += static_cast<double>(tear_heat(c, kin.effective_radius));
     return part_from_wall(contact, totals);
   }
   if (!overlap && laws.cohesion == CohesionLaw::van_der_waals) {

@@ -172,7 +172,7 @@ int step_one(const char* path, const char* name, int steps) {
     for (int s = 0; s < steps; ++s) {
       sim.advance(1);
       contacts += static_cast<double>(contact_statistics(sim).contacts);
-      listed += static_cast<double>(sim.pair_contacts().pairs.size());
+      listed += static_cast<double>(sim.pair_contacts().listed());
     }
     fmt::print("{}\t{}\n", contacts, listed);
     return 0;

@@ -146,12 +146,12 @@ bool has_every_memory(const Simulation& sim) {
        gap = sim.model().laws.cohesion != CohesionLaw::van_der_waals;
   bool rolls = sim.model().laws.rolling != RollingLaw::epsd2;
   const PairContacts& list = sim.pair_contacts();
-  for (std::size_t k = 0; k < list.pairs.size(); ++k) {
-    const GrainRow &a = sim.rows()[list.pairs[k].a], &b = sim.rows()[list.pairs[k].b];
+  for (std::size_t k = 0; k < list.places(); ++k) {
+    const GrainRow &a = sim.rows()[list.pair(k).a], &b = sim.rows()[list.pair(k).b];
     const bool apart = norm(a.position() - b.position()) > a.radius + b.radius;
-    neck = neck || (list.state[k] == ContactState::touching && apart);
-    gap = gap || list.state[k] == ContactState::attracting;
-    rolls = rolls || (!list.rolling.empty() && norm(list.rolling[k].force) > 0);
+    neck = neck || (list.state(k) == ContactState::touching && apart);
+    gap = gap || list.state(k) == ContactState::attracting;
+    rolls = rolls || norm(list.rolling(k).force) > 0;
   }
   return neck && gap && rolls;
 }

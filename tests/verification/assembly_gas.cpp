@@ -87,9 +87,9 @@ using Pairs = std::vector<std::pair<std::int64_t, std::int64_t>>;
 Pairs touching_pairs(const Simulation& sim) {
   const PairContacts& contacts = sim.pair_contacts();
   Pairs touching;
-  for (std::size_t k = 0; k < contacts.pairs.size(); ++k) {
+  for (std::size_t k = 0; k < contacts.places(); ++k) {
     if (!contacts.touching(k)) continue;
-    touching.emplace_back(sim.rows()[contacts.pairs[k].a].id, sim.rows()[contacts.pairs[k].b].id);
+    touching.emplace_back(sim.rows()[contacts.pair(k).a].id, sim.rows()[contacts.pair(k).b].id);
   }
   std::sort(touching.begin(), touching.end());
   return touching;

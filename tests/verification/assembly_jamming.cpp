@@ -51,11 +51,11 @@ void relax(std::vector<NewGrain>& grains, double radius, std::int64_t steps, dou
   if (!pressure) return;
   double virial = 0;
   const PairContacts& contacts = sim.pair_contacts();
-  for (std::size_t k = 0; k < contacts.pairs.size(); ++k) {
+  for (std::size_t k = 0; k < contacts.places(); ++k) {
     if (!contacts.touching(k)) continue;
-    const Vec3d apart = separation(sim.rows()[contacts.pairs[k].a].position(),
-                                   sim.rows()[contacts.pairs[k].b].position(), sim.search_space());
-    virial += dot(contacts.results[k].force, apart);
+    const Vec3d apart = separation(sim.rows()[contacts.pair(k).a].position(),
+                                   sim.rows()[contacts.pair(k).b].position(), sim.search_space());
+    virial += dot(contacts.force(k), apart);
   }
   *pressure = virial / (3 * kSide * kSide * kSide);
 }

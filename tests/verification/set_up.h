@@ -89,8 +89,8 @@ inline ContactNow contact_of(const Simulation& sim) {
     if (w.state != ContactState::apart) return {w.state, w.force};
   }
   const PairContacts& p = sim.pair_contacts();
-  for (std::size_t k = 0; k < p.pairs.size(); ++k) {
-    if (p.state[k] != ContactState::apart) return {p.state[k], p.results[k].force};
+  for (std::size_t k = 0; k < p.places(); ++k) {
+    if (p.state(k) != ContactState::apart) return {p.state(k), p.force(k)};
   }
   return {};
 }

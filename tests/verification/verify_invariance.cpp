@@ -142,8 +142,8 @@ TEST_P(Invariance, TheCollisionIsOne) {
   bool wall = false;
   for (std::int64_t s = 0; s < kSteps; ++s) {
     sim.advance(1);
-    for (std::size_t k = 0; k < sim.pair_contacts().pairs.size(); ++k) {
-      const PairRef p = sim.pair_contacts().pairs[k];
+    for (std::size_t k = 0; k < sim.pair_contacts().places(); ++k) {
+      const PairRef p = sim.pair_contacts().pair(k);
       const auto ids = static_cast<std::size_t>(sim.rows()[p.a].id + sim.rows()[p.b].id);
       if (sim.pair_contacts().touching(k)) pairs[ids - 1] = true;
     }

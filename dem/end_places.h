@@ -1,0 +1,43 @@
+// Where pairs put their forces for grains to collect: one place for each end of a pair, the ends of a grain
+// side by side, by ascending id of the partner.
+//
+// As a sweep goes on, a grain's ends are written from when the first of its partners is worked on until it
+// collects them. Only so many are in use at a time; in a ring they take the same small piece of memory step
+// after step, which stays in cache. All ends at once are kept where somebody will ask for forces.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "dem/sweep.h"
+
+namespace interstice::dem {
+
+/// Where the two ends of a pair put their forces.
+struct PairEnds {
+  std::uint32_t a, b;
+};
+
+struct EndPlaces {
+  std::vector<std::uint32_t> first;  // place of each slot's first end
+  std::vector<PairEnds> of_pair;     // empty places of the list: one place that nobody reads
+  std::size_t places = 0;            // in all
+};
+
+/// An end of a pair shared by two parts, evaluated before any grain moves: kept apart, and brought into the
+/// ring when its grain collects.
+struct SharedEnd {
+  std::uint32_t place, kept;
+};
+
+struct EndRing {
+  EndPlaces places;                  // pairs shared by parts: their places in `kept`
+  std::vector<SharedEnd> shared;     // by block of rows
+  std::vector<std::uint32_t> first;  // of each block's, and one past the last
+  std::size_t kept = 0;              // places for shared pairs
+};
+
+/// From the places of all ends, `first` with one past the last.
+EndRing make_ring(const Sweep& sweep, const std::vector<PairRef>& pairs, const EndPlaces& all);
+
+}  // namespace interstice::dem

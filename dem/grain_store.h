@@ -1,0 +1,94 @@
+// The grains as the CPU back end keeps them, sorted in space. What the pair loop reads of a grain lies in one
+// row (a cache line in mixed precision), four numbers side by side, loaded at once (simd/transpose.h); what
+// only the grain's own motion needs lies beside it, and what a step does not need at all lies apart.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "dem/grains.h"
+#include "dem/reals.h"
+
+namespace interstice::dem {
+
+/// What pairs read, in the number type of the forces; velocities as predicted for the step's end.
+template <class Real>
+struct alignas(16 * sizeof(Real) > 64 ? 32 : 64) PairRow {
+  double x, y, z, radius;
+  Real vx, vy, vz, mass;
+  Real wx, wy, wz;
+  std::uint32_t material;
+
+  Vec3d position() const { return {x, y, z}; }
+};
+static_assert(sizeof(PairRow<float>) == 64 && sizeof(PairRow<double>) == 96);
+
+/// Between steps the present velocities; while steps follow each other, those half a step back.
+struct alignas(64) GrainMotion {
+  Vec3d velocity;  // [m/s]
+  double inverse_mass;
+  Vec3d spin;  // [rad/s]
+  double inverse_inertia;
+};
+
+/// At the present time, kept between steps only.
+struct GrainAcceleration {
+  Vec3d linear, angular;  // [m/s^2], [rad/s^2]
+};
+
+struct GrainLabel {
+  Vec3d built;  // where the grain stood when the neighbour list was built
+  std::int64_t id;
+  double mass;  // [kg]
+  std::int32_t layer;
+};
+
+class GrainStore {
+ public:
+  explicit GrainStore(Precision precision) : single_(precision == Precision::mixed) {}
+
+  std::size_t size() const { return motions_.size(); }
+  void clear();
+  void add(const GrainRow& grain, const GrainAcceleration& acceleration);
+  /// Slot s gets what stood in slot order[s]; slots that are not named are dropped.
+  void take(std::span<const std::uint32_t> order);
+
+  /// Calls body(rows) with the rows in their number type.
+  template <class Body>
+  auto with_rows(const Body& body) {
+    return single_ ? body(singles_) : body(doubles_);
+  }
+  template <class Body>
+  auto with_rows(const Body& body) const {
+    return single_ ? body(singles_) : body(doubles_);
+  }
+  const void* row_data() const {
+    return single_ ? static_cast<const void*>(singles_.data()) : doubles_.data();
+  }
+  std::vector<GrainMotion>& motions() { return motions_; }
+  const std::vector<GrainMotion>& motions() const { return motions_; }
+  std::vector<GrainLabel>& labels() { return labels_; }
+  const std::vector<GrainLabel>& labels() const { return labels_; }
+  std::vector<GrainAcceleration>& accelerations() { return accelerations_; }
+  const std::vector<GrainAcceleration>& accelerations() const { return accelerations_; }
+
+  /// While steps follow each other velocities are those of the pair rows.
+  void set_stepping(bool stepping);
+  bool stepping() const { return stepping_; }
+
+  GrainRow row(std::size_t slot) const;
+  GrainSite site(std::size_t slot) const;
+  std::vector<GrainSite> sites() const;
+  std::size_t bytes() const;
+
+ private:
+  bool single_;
+  bool stepping_ = false;
+  std::vector<PairRow<float>> singles_;
+  std::vector<PairRow<double>> doubles_;
+  std::vector<GrainMotion> motions_;
+  std::vector<GrainLabel> labels_;
+  std::vector<GrainAcceleration> accelerations_;  // empty while steps follow each other
+};
+
+}  // namespace interstice::dem

@@ -1,0 +1,59 @@
+// In which number type forces are computed, and storage of that type.
+#pragma once
+
+#include <cstddef>
+#include <type_traits>
+#include <vector>
+
+namespace interstice::dem {
+
+enum class Precision {
+  real64,  ///< everything in double
+  mixed,   ///< positions, overlaps and motion in double; laws and forces in single
+};
+
+/// Numbers in single or double, whichever the kernels use.
+class Reals {
+ public:
+  explicit Reals(Precision precision) : single_(precision == Precision::mixed) {}
+
+  /// n zeros, with little room beyond: lists change by a few percent from one to the next.
+  void reset(std::size_t n) {
+    if (single_) {
+      reset(floats_, n);
+    } else {
+      reset(doubles_, n);
+    }
+  }
+  std::size_t size() const { return floats_.size() + doubles_.size(); }
+  bool empty() const { return floats_.empty() && doubles_.empty(); }
+  double operator[](std::size_t i) const { return single_ ? static_cast<double>(floats_[i]) : doubles_[i]; }
+  void set(std::size_t i, double value) {
+    if (single_) {
+      floats_[i] = static_cast<float>(value);
+    } else {
+      doubles_[i] = value;
+    }
+  }
+  /// As the kernels see it.
+  void* data() { return single_ ? static_cast<void*>(floats_.data()) : doubles_.data(); }
+  std::size_t bytes() const {
+    return floats_.capacity() * sizeof(float) + doubles_.capacity() * sizeof(double);
+  }
+
+ private:
+  template <class T>
+  static void reset(std::vector<T>& v, std::size_t n) {
+    if (n > v.capacity() || n < v.capacity() / 2) {
+      v = {};
+      v.reserve(n + n / 16);
+    }
+    v.assign(n, T(0));
+  }
+
+  bool single_;
+  std::vector<float> floats_;
+  std::vector<double> doubles_;
+};
+
+}  // namespace interstice::dem

@@ -1,0 +1,307 @@
+// A number type of several lanes: the contact laws, written for a scalar, run on it unchanged, one contact a
+// lane. Choices that differ from lane to lane are selects (contact/numeric.h). Lanes never mix, so a lane's
+// bits do not depend on which lane it is or on what the others hold.
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <type_traits>
+
+#if defined(__SSE2__)
+#include <immintrin.h>
+#endif
+
+#include "dem/contact/numeric.h"
+
+namespace interstice::dem::simd {
+
+/// Bytes of the machine's own registers, for which this is compiled.
+#if defined(__AVX512F__) && defined(__AVX512DQ__) && defined(__AVX512VL__)
+#define INTERSTICE_AVX512 1
+inline constexpr int kNativeBytes = 64;
+#elif defined(__AVX__)
+inline constexpr int kNativeBytes = 32;
+#else
+inline constexpr int kNativeBytes = 16;
+#endif
+
+template <class T, int N>
+inline constexpr bool kFitsRegister = N* static_cast<int>(sizeof(T)) <= kNativeBytes;
+
+template <class T>
+using IntegerOf = std::conditional_t<sizeof(T) == 4, std::int32_t, std::int64_t>;
+
+/// While it lives, numbers below the smallest normal one count as zero: a spin that friction takes away goes
+/// through them for thousands of steps, each a hundred times slower.
+class FlushTinyNumbers {
+ public:
+#if defined(__SSE2__)
+  FlushTinyNumbers() : before_(_mm_getcsr()) { _mm_setcsr(before_ | 0x8040); }
+  ~FlushTinyNumbers() { _mm_setcsr(before_); }
+  FlushTinyNumbers(const FlushTinyNumbers&) = delete;
+  FlushTinyNumbers& operator=(const FlushTinyNumbers&) = delete;
+
+ private:
+  unsigned before_;
+#endif
+};
+
+/// A truth value a lane, in one register or in two halves.
+template <class T, int N, bool = kFitsRegister<T, N>>
+struct Mask;
+/// N numbers, in one register or in two halves.
+template <class T, int N, bool = kFitsRegister<T, N>>
+struct Pack;
+
+#ifdef INTERSTICE_AVX512
+template <class T, int N>
+struct Mask<T, N, true> {
+  std::uint32_t lanes;  // bit by lane
+
+  std::uint32_t bits() const { return lanes; }
+  static Mask from_bits(std::uint32_t b) { return {b & ((1u << N) - 1)}; }
+  friend Mask operator&(Mask a, Mask b) { return {a.lanes & b.lanes}; }
+  friend Mask operator|(Mask a, Mask b) { return {a.lanes | b.lanes}; }
+  friend Mask operator!(Mask a) { return {a.lanes ^ ((1u << N) - 1)}; }
+};
+#else
+template <class T, int N>
+struct Mask<T, N, true> {
+  typedef IntegerOf<T> Lanes __attribute__((vector_size(N * sizeof(T))));
+  Lanes lanes;  // all ones or zero
+
+  std::uint32_t bits() const {
+    std::uint32_t b = 0;
+    for (int i = 0; i < N; ++i) b |= (lanes[i] != 0 ? 1u : 0u) << i;
+    return b;
+  }
+  static Mask from_bits(std::uint32_t b) {
+    Mask m;
+    for (int i = 0; i < N; ++i) m.lanes[i] = -static_cast<IntegerOf<T>>(b >> i & 1u);
+    return m;
+  }
+  friend Mask operator&(Mask a, Mask b) { return {a.lanes & b.lanes}; }
+  friend Mask operator|(Mask a, Mask b) { return {a.lanes | b.lanes}; }
+  friend Mask operator!(Mask a) { return {~a.lanes}; }
+};
+#endif
+
+template <class T, int N>
+struct Mask<T, N, false> {
+  Mask<T, N / 2> lo, hi;
+
+  std::uint32_t bits() const { return lo.bits() | hi.bits() << (N / 2); }
+  static Mask from_bits(std::uint32_t b) {
+    return {Mask<T, N / 2>::from_bits(b & ((1u << (N / 2)) - 1)), Mask<T, N / 2>::from_bits(b >> (N / 2))};
+  }
+  friend Mask operator&(const Mask& a, const Mask& b) { return {a.lo & b.lo, a.hi & b.hi}; }
+  friend Mask operator|(const Mask& a, const Mask& b) { return {a.lo | b.lo, a.hi | b.hi}; }
+  friend Mask operator!(const Mask& a) { return {!a.lo, !a.hi}; }
+};
+
+template <class T, int N>
+struct Pack<T, N, true> {
+  using M = Mask<T, N>;
+  typedef T Lanes __attribute__((vector_size(N * sizeof(T))));
+  Lanes lanes;
+
+  Pack() : lanes{} {}
+  Pack(Lanes l) : lanes(l) {}
+  template <class U>
+  requires std::is_arithmetic_v<U> Pack(U all) : lanes(Lanes{} + static_cast<T>(all)) {}
+
+  static Pack load(const T* from) {
+    Pack p;
+    __builtin_memcpy(&p.lanes, from, sizeof(Lanes));
+    return p;
+  }
+  void store(T* to) const { __builtin_memcpy(to, &lanes, sizeof(Lanes)); }
+
+  friend Pack operator+(const Pack& a, const Pack& b) { return a.lanes + b.lanes; }
+  friend Pack operator-(const Pack& a, const Pack& b) { return a.lanes - b.lanes; }
+  friend Pack operator*(const Pack& a, const Pack& b) { return a.lanes * b.lanes; }
+  friend Pack operator/(const Pack& a, const Pack& b) { return a.lanes / b.lanes; }
+  friend Pack operator-(const Pack& a) { return -a.lanes; }
+#ifdef INTERSTICE_AVX512
+  template <int How>
+  static M compare(const Pack& a, const Pack& b) {
+    if constexpr (std::is_same_v<T, float>) {
+      if constexpr (N == 16) return {_mm512_cmp_ps_mask(a.lanes, b.lanes, How)};
+      if constexpr (N == 8) return {_mm256_cmp_ps_mask(a.lanes, b.lanes, How)};
+      if constexpr (N == 4) return {_mm_cmp_ps_mask(a.lanes, b.lanes, How)};
+    } else {
+      if constexpr (N == 8) return {_mm512_cmp_pd_mask(a.lanes, b.lanes, How)};
+      if constexpr (N == 4) return {_mm256_cmp_pd_mask(a.lanes, b.lanes, How)};
+      if constexpr (N == 2) return {_mm_cmp_pd_mask(a.lanes, b.lanes, How)};
+    }
+  }
+  friend M operator<(const Pack& a, const Pack& b) { return compare<_CMP_LT_OQ>(a, b); }
+  friend M operator>(const Pack& a, const Pack& b) { return compare<_CMP_GT_OQ>(a, b); }
+  friend M operator<=(const Pack& a, const Pack& b) { return compare<_CMP_LE_OQ>(a, b); }
+  friend M operator>=(const Pack& a, const Pack& b) { return compare<_CMP_GE_OQ>(a, b); }
+  friend Pack select(const M& condition, const Pack& yes, const Pack& no) {
+    if constexpr (std::is_same_v<T, float>) {
+      if constexpr (N == 16)
+        return _mm512_mask_blend_ps(static_cast<__mmask16>(condition.lanes), no.lanes, yes.lanes);
+      if constexpr (N == 8)
+        return _mm256_mask_blend_ps(static_cast<__mmask8>(condition.lanes), no.lanes, yes.lanes);
+      if constexpr (N == 4)
+        return _mm_mask_blend_ps(static_cast<__mmask8>(condition.lanes), no.lanes, yes.lanes);
+    } else {
+      if constexpr (N == 8)
+        return _mm512_mask_blend_pd(static_cast<__mmask8>(condition.lanes), no.lanes, yes.lanes);
+      if constexpr (N == 4)
+        return _mm256_mask_blend_pd(static_cast<__mmask8>(condition.lanes), no.lanes, yes.lanes);
+      if constexpr (N == 2)
+        return _mm_mask_blend_pd(static_cast<__mmask8>(condition.lanes), no.lanes, yes.lanes);
+    }
+  }
+#else
+  friend M operator<(const Pack& a, const Pack& b) { return {a.lanes < b.lanes}; }
+  friend M operator>(const Pack& a, const Pack& b) { return {a.lanes > b.lanes}; }
+  friend M operator<=(const Pack& a, const Pack& b) { return {a.lanes <= b.lanes}; }
+  friend M operator>=(const Pack& a, const Pack& b) { return {a.lanes >= b.lanes}; }
+  friend Pack select(const M& condition, const Pack& yes, const Pack& no) {
+    return condition.lanes ? yes.lanes : no.lanes;
+  }
+#endif
+  friend Pack sqrt_of(const Pack& a) {
+#ifdef INTERSTICE_AVX512
+    if constexpr (sizeof(Lanes) == 64) {
+      if constexpr (std::is_same_v<T, float>) {
+        return _mm512_sqrt_ps(a.lanes);
+      } else {
+        return _mm512_sqrt_pd(a.lanes);
+      }
+    }
+#endif
+    Pack r;  // with -fno-math-errno one instruction
+    for (int i = 0; i < N; ++i) r.lanes[i] = std::sqrt(a.lanes[i]);
+    return r;
+  }
+  template <class F>
+  friend Pack each(const Pack& a, const F& f) {
+    Pack r;
+    for (int i = 0; i < N; ++i) r.lanes[i] = f(a.lanes[i]);
+    return r;
+  }
+};
+
+template <class T, int N>
+struct Pack<T, N, false> {
+  using M = Mask<T, N>;
+  using Half = Pack<T, N / 2>;
+  Half lo, hi;
+
+  Pack() = default;
+  Pack(const Half& l, const Half& h) : lo(l), hi(h) {}
+  template <class U>
+  requires std::is_arithmetic_v<U> Pack(U all) : lo(all), hi(all) {}
+
+  static Pack load(const T* from) { return {Half::load(from), Half::load(from + N / 2)}; }
+  void store(T* to) const {
+    lo.store(to);
+    hi.store(to + N / 2);
+  }
+
+  friend Pack operator+(const Pack& a, const Pack& b) { return {a.lo + b.lo, a.hi + b.hi}; }
+  friend Pack operator-(const Pack& a, const Pack& b) { return {a.lo - b.lo, a.hi - b.hi}; }
+  friend Pack operator*(const Pack& a, const Pack& b) { return {a.lo * b.lo, a.hi * b.hi}; }
+  friend Pack operator/(const Pack& a, const Pack& b) { return {a.lo / b.lo, a.hi / b.hi}; }
+  friend Pack operator-(const Pack& a) { return {-a.lo, -a.hi}; }
+  friend M operator<(const Pack& a, const Pack& b) { return {a.lo < b.lo, a.hi < b.hi}; }
+  friend M operator>(const Pack& a, const Pack& b) { return {a.lo > b.lo, a.hi > b.hi}; }
+  friend M operator<=(const Pack& a, const Pack& b) { return {a.lo <= b.lo, a.hi <= b.hi}; }
+  friend M operator>=(const Pack& a, const Pack& b) { return {a.lo >= b.lo, a.hi >= b.hi}; }
+  friend Pack select(const M& condition, const Pack& yes, const Pack& no) {
+    return {select(condition.lo, yes.lo, no.lo), select(condition.hi, yes.hi, no.hi)};
+  }
+  friend Pack sqrt_of(const Pack& a) { return {sqrt_of(a.lo), sqrt_of(a.hi)}; }
+  template <class F>
+  friend Pack each(const Pack& a, const F& f) {
+    return {each(a.lo, f), each(a.hi, f)};
+  }
+};
+
+template <class T, int N>
+Pack<T, N>& operator+=(Pack<T, N>& a, const Pack<T, N>& b) {
+  return a = a + b;
+}
+template <class T, int N>
+Pack<T, N> max_of(const Pack<T, N>& a, const Pack<T, N>& b) {
+  return select(a > b, a, b);
+}
+template <class T, int N>
+Pack<T, N> min_of(const Pack<T, N>& a, const Pack<T, N>& b) {
+  return select(a < b, a, b);
+}
+template <class T, int N>
+Pack<T, N> abs_of(const Pack<T, N>& a) {
+  return select(a < Pack<T, N>(0), -a, a);
+}
+template <class T, int N>
+Pack<T, N> cbrt_of(const Pack<T, N>& a) {
+  return each(a, [](T x) { return std::cbrt(x); });
+}
+/// For norm() of base/vec3.h.
+template <class T, int N>
+Pack<T, N> sqrt(const Pack<T, N>& a) {
+  return sqrt_of(a);
+}
+
+/// As in contact/numeric.h.
+template <class T, int N>
+Pack<T, N> length_of(const Vec3<Pack<T, N>>& v) {
+  if constexpr (std::is_same_v<T, float>) {
+    return Pack<T, N>(1 / kLengthScale) * norm(Pack<T, N>(kLengthScale) * v);
+  } else {
+    return norm(v);
+  }
+}
+
+/// The same numbers as another scalar type.
+template <class U, class T, int N>
+Pack<U, N> converted(const Pack<T, N>& a) {
+  if constexpr (std::is_same_v<U, T>) {
+    return a;
+  } else if constexpr (kFitsRegister<T, N> && kFitsRegister<U, N>) {
+    return __builtin_convertvector(a.lanes, typename Pack<U, N>::Lanes);
+  } else if constexpr (kFitsRegister<U, N>) {  // two registers of doubles to one of floats
+    const auto lo = converted<U>(a.lo), hi = converted<U>(a.hi);
+    Pack<U, N> joined;
+    __builtin_memcpy(&joined.lanes, &lo.lanes, sizeof(lo.lanes));
+    __builtin_memcpy(reinterpret_cast<char*>(&joined.lanes) + sizeof(lo.lanes), &hi.lanes, sizeof(hi.lanes));
+    return joined;
+  } else {
+    return {converted<U>(a.lo), converted<U>(a.hi)};
+  }
+}
+/// The first and the last lanes.
+template <class T, int N>
+Pack<T, N / 2> lower_half(const Pack<T, N>& a) {
+  if constexpr (kFitsRegister<T, N>) {
+    Pack<T, N / 2> half;
+    __builtin_memcpy(&half.lanes, &a.lanes, sizeof(half.lanes));
+    return half;
+  } else {
+    return a.lo;
+  }
+}
+template <class T, int N>
+Pack<T, N / 2> upper_half(const Pack<T, N>& a) {
+  if constexpr (kFitsRegister<T, N>) {
+    Pack<T, N / 2> half;
+    __builtin_memcpy(&half.lanes, reinterpret_cast<const char*>(&a.lanes) + sizeof(half.lanes),
+                     sizeof(half.lanes));
+    return half;
+  } else {
+    return a.hi;
+  }
+}
+template <class U, class T, int N>
+Vec3<Pack<U, N>> converted(const Vec3<Pack<T, N>>& a) {
+  return {converted<U>(a.x), converted<U>(a.y), converted<U>(a.z)};
+}
+
+}  // namespace interstice::dem::simd

@@ -1,0 +1,54 @@
+// In which order a step works on pairs and grains. Grains move on block by block right after the last of
+// their pairs, while these are still in cache: pairs are listed by their earlier grain, so when the pairs of
+// all grains up to a block's end are done, nothing needs the block's rows as they stand any more. Threads
+// work on parts, ranges of whole blocks; pairs between two parts are done before any grain moves.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "dem/neighbours.h"
+
+namespace interstice::dem {
+
+/// Pairs that are evaluated together, a lane of a vector each.
+inline constexpr std::size_t kLanes = 16;
+/// Rows that move on together.
+inline constexpr std::size_t kRowsPerBlock = 256;
+
+/// Ranges of blocks of rows.
+struct Parts {
+  std::size_t rows = 0;
+  std::vector<std::size_t> first_block{0};  // and one past the last
+
+  Parts() = default;
+  Parts(std::size_t rows_, std::size_t count);
+
+  std::size_t count() const { return first_block.size() - 1; }
+  std::size_t blocks() const { return first_block.back(); }
+  std::size_t begin_row(std::size_t block) const { return block * kRowsPerBlock; }
+  std::size_t end_row(std::size_t block) const { return std::min(rows, (block + 1) * kRowsPerBlock); }
+};
+
+/// Groups of kLanes pairs: those shared by two parts first, then part by part.
+struct Sweep {
+  Parts parts;
+  std::size_t shared_groups = 0;
+  std::vector<std::size_t> first_group;  // of each part
+  std::vector<std::size_t> done_before;  // by block: groups before this one must be done before its rows move
+};
+
+/// Where each pair goes in a list of groups, and the sweep over them. A group holds pairs of one part only
+/// (or shared ones), so some places stay empty, at its end.
+struct PairOrder {
+  Sweep sweep;
+  std::vector<std::uint32_t> place;  // of each pair
+  std::size_t places = 0;            // a multiple of kLanes
+};
+
+/// `all_shared`: every pair is done before any grain moves.
+PairOrder order_pairs(const std::vector<PairRef>& pairs, const Parts& parts, bool all_shared);
+
+}  // namespace interstice::dem
