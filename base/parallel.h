@@ -3,6 +3,7 @@
 #pragma once
 
 #include <tbb/blocked_range.h>
+#include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
@@ -20,11 +21,18 @@ struct Blocks {
   std::size_t end(std::size_t b) const { return std::min(size, (b + 1) * block); }
 };
 
+/// Threads that a loop started here may use.
+inline std::size_t threads() {
+  const std::size_t allowed =
+      tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
+  return std::min(allowed, static_cast<std::size_t>(tbb::this_task_arena::max_concurrency()));
+}
+
 /// Calls body(block, begin, end) for every block, on the threads of the current task arena.
 template <class Body>
 void for_each_block(const Blocks& blocks, const Body& body) {
   const std::size_t n = blocks.count();
-  if (n <= 1 || tbb::this_task_arena::max_concurrency() == 1) {
+  if (n <= 1 || threads() == 1) {
     for (std::size_t b = 0; b < n; ++b) body(b, blocks.begin(b), blocks.end(b));
     return;
   }

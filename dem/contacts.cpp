@@ -10,14 +10,14 @@ namespace {
 constexpr std::size_t kSlotsPerBlock = 2048;
 constexpr std::size_t kGroupsPerBlock = 256;
 
-template <class T>
-std::size_t bytes_of(const std::vector<T>& v) {
-  return v.capacity() * sizeof(T);
+template <class Vector>
+std::size_t bytes_of(const Vector& v) {
+  return v.capacity() * sizeof(v[0]);
 }
 
 /// Resizes without the room to double that vectors keep: lists change by a few percent from one to the next.
-template <class T>
-void resize_tightly(std::vector<T>& v, std::size_t n) {
+template <class Vector>
+void resize_tightly(Vector& v, std::size_t n) {
   if (n > v.capacity() || n < v.capacity() / 2) {
     v.clear();
     v.shrink_to_fit();
@@ -30,7 +30,7 @@ constexpr std::size_t kNoPair = static_cast<std::size_t>(-1);
 
 /// A list that is being replaced, by the slots of its time.
 struct OldEnds {
-  std::vector<PairRef> pairs;
+  LargeVector<PairRef> pairs;
   std::vector<std::uint32_t> first, pair_of_end;
 
   std::size_t find(std::uint32_t a, std::uint32_t b) const {
@@ -149,7 +149,8 @@ void PairContacts::keep_forces(bool all) {
 
 PairView PairContacts::view() {
   const bool all = keeps_forces();
-  return {pairs_.data(),
+  return {bits_.size(),
+          pairs_.data(),
           all ? all_.of_pair.data() : ring_.places.of_pair.data(),
           bits_.data(),
           sliding_.empty() ? nullptr : sliding_.data(),

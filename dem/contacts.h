@@ -63,6 +63,7 @@ inline constexpr std::size_t kSpringReals = 4;
 /// What the kernels see of the pairs. Springs: by group, number and lane; ends: by end and number; both in
 /// the kernels' number type; null where not kept.
 struct PairView {
+  std::size_t groups;
   const PairRef* pairs;
   const PairEnds* ends;
   GroupBits* bits;
@@ -138,7 +139,7 @@ class PairContacts {
   KeptMemories kept_;
   Sweep sweep_;
   std::size_t listed_ = 0;
-  std::vector<PairRef> pairs_;
+  LargeVector<PairRef> pairs_;
   std::vector<GroupBits> bits_;
   EndPlaces all_;  // `first` with one past the last
   EndRing ring_;

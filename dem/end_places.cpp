@@ -7,7 +7,7 @@ namespace {
 
 /// The most ends that are in use at a time in one part: from the grains of a block to the last partner of any
 /// pair that must be done before they move.
-std::size_t widest_window(const Sweep& sweep, std::size_t part, const std::vector<PairRef>& pairs,
+std::size_t widest_window(const Sweep& sweep, std::size_t part, const LargeVector<PairRef>& pairs,
                           const std::vector<std::uint32_t>& first) {
   std::size_t widest = 0, last_row = 0, pair = sweep.first_group[part] * kLanes;
   for (std::size_t b = sweep.parts.first_block[part]; b < sweep.parts.first_block[part + 1]; ++b) {
@@ -21,7 +21,7 @@ std::size_t widest_window(const Sweep& sweep, std::size_t part, const std::vecto
 
 }  // namespace
 
-EndRing make_ring(const Sweep& sweep, const std::vector<PairRef>& pairs, const EndPlaces& all) {
+EndRing make_ring(const Sweep& sweep, const LargeVector<PairRef>& pairs, const EndPlaces& all) {
   const Parts& parts = sweep.parts;
   EndRing ring;
   ring.places.first.resize(parts.rows);

@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "base/large_pages.h"
 #include "dem/sweep.h"
 
 namespace interstice::dem {
@@ -20,7 +21,7 @@ struct PairEnds {
 
 struct EndPlaces {
   std::vector<std::uint32_t> first;  // place of each slot's first end
-  std::vector<PairEnds> of_pair;     // empty places of the list: one place that nobody reads
+  LargeVector<PairEnds> of_pair;     // empty places of the list: one place that nobody reads
   std::size_t places = 0;            // in all
 };
 
@@ -38,6 +39,6 @@ struct EndRing {
 };
 
 /// From the places of all ends, `first` with one past the last.
-EndRing make_ring(const Sweep& sweep, const std::vector<PairRef>& pairs, const EndPlaces& all);
+EndRing make_ring(const Sweep& sweep, const LargeVector<PairRef>& pairs, const EndPlaces& all);
 
 }  // namespace interstice::dem

@@ -10,10 +10,10 @@ PairRow<Real> pair_row(const GrainRow& g) {
           r(g.vz), r(g.mass), r(g.wx), r(g.wy),  r(g.wz), g.material};
 }
 
-template <class T>
-void take_from(std::vector<T>& v, std::span<const std::uint32_t> order) {
+template <class Vector>
+void take_from(Vector& v, std::span<const std::uint32_t> order) {
   if (v.empty()) return;
-  std::vector<T> taken(order.size());
+  Vector taken(order.size());
   for (std::size_t s = 0; s < order.size(); ++s) taken[s] = v[order[s]];
   v = std::move(taken);
 }

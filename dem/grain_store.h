@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "base/large_pages.h"
 #include "dem/grains.h"
 #include "dem/reals.h"
 
@@ -65,8 +66,8 @@ class GrainStore {
   const void* row_data() const {
     return single_ ? static_cast<const void*>(singles_.data()) : doubles_.data();
   }
-  std::vector<GrainMotion>& motions() { return motions_; }
-  const std::vector<GrainMotion>& motions() const { return motions_; }
+  LargeVector<GrainMotion>& motions() { return motions_; }
+  const LargeVector<GrainMotion>& motions() const { return motions_; }
   std::vector<GrainLabel>& labels() { return labels_; }
   const std::vector<GrainLabel>& labels() const { return labels_; }
   std::vector<GrainAcceleration>& accelerations() { return accelerations_; }
@@ -84,9 +85,9 @@ class GrainStore {
  private:
   bool single_;
   bool stepping_ = false;
-  std::vector<PairRow<float>> singles_;
-  std::vector<PairRow<double>> doubles_;
-  std::vector<GrainMotion> motions_;
+  LargeVector<PairRow<float>> singles_;
+  LargeVector<PairRow<double>> doubles_;
+  LargeVector<GrainMotion> motions_;
   std::vector<GrainLabel> labels_;
   std::vector<GrainAcceleration> accelerations_;  // empty while steps follow each other
 };

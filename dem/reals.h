@@ -3,7 +3,8 @@
 
 #include <cstddef>
 #include <type_traits>
-#include <vector>
+
+#include "base/large_pages.h"
 
 namespace interstice::dem {
 
@@ -43,7 +44,7 @@ class Reals {
 
  private:
   template <class T>
-  static void reset(std::vector<T>& v, std::size_t n) {
+  static void reset(LargeVector<T>& v, std::size_t n) {
     if (n > v.capacity() || n < v.capacity() / 2) {
       v = {};
       v.reserve(n + n / 16);
@@ -52,8 +53,8 @@ class Reals {
   }
 
   bool single_;
-  std::vector<float> floats_;
-  std::vector<double> doubles_;
+  LargeVector<float> floats_;
+  LargeVector<double> doubles_;
 };
 
 }  // namespace interstice::dem

@@ -195,14 +195,14 @@ void Simulation::rebuild_if_needed() {
   }
 }
 
-/// A skin that lasts some 60 steps at the present speed. Bits do not depend on it, only speed does.
+/// A skin that lasts some 120 steps at the present speed. Bits do not depend on it, only speed does.
 double Simulation::choose_skin(const std::vector<GrainSite>& sites) const {
   if (options_.skin > 0) return options_.skin;
   double radius_sum = 0, fastest = fastest_;
   for (const GrainSite& g : sites) radius_sum += g.radius;
   for (const WallMotion& m : motion_of_wall_) fastest = std::max(fastest, norm(m.velocity));
   const double diameter = sites.empty() ? 0 : 2 * radius_sum / static_cast<double>(sites.size());
-  return std::clamp(120 * fastest * dt_, 0.03 * diameter, 0.3 * diameter);
+  return std::clamp(240 * fastest * dt_, 0.04 * diameter, 0.4 * diameter);
 }
 
 SearchSpace Simulation::search_space() const {
@@ -301,8 +301,7 @@ void Simulation::refresh(const std::vector<std::uint32_t>& old_slot, const std::
 
 /// One part for one thread; several a thread else, so that the fastest does not wait for the slowest.
 Parts Simulation::parts() const {
-  const auto threads = static_cast<std::size_t>(tbb::this_task_arena::max_concurrency());
-  return {grains_.size(), options_.reference || threads == 1 ? 1 : kPartsPerThread * threads};
+  return {grains_.size(), options_.reference || threads() == 1 ? 1 : kPartsPerThread * threads()};
 }
 
 std::size_t Simulation::bytes() const {

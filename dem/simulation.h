@@ -137,8 +137,9 @@ class Simulation {
   StepView step_view();
   void count_inserted_contacts();
   double inserted_on_wall(const GrainRow& grain, const WallContact& contact) const;
-  void add_walls(const StepView& view, std::size_t i, std::span<WallContact> walls, Four& force,
-                 Four& torque);
+  template <class Real>
+  void add_walls(const StepView& view, const PairRow<Real>& row, std::size_t slot,
+                 std::span<WallContact> walls, Four& force, Four& torque);
   void add_heat(std::size_t i, const WallTotals& walls);
   std::size_t id_of(std::size_t slot) const { return static_cast<std::size_t>(grains_.labels()[slot].id); }
   void note_leaver(std::size_t i);

@@ -160,6 +160,23 @@ void Simulation::evaluate_and_move(PairRow<Real>* rows, bool begin_next) {
   if (begin_next) take_report(reports);
 }
 
+template <class Real>
+void Simulation::add_walls(const StepView& view, const PairRow<Real>& row, std::size_t i,
+                           std::span<WallContact> walls, Four& force, Four& torque) {
+  const auto d = [](Real value) { return static_cast<double>(value); };
+  const WallGrain grain{row.position(),
+                        {d(row.vx), d(row.vy), d(row.vz)},
+                        {d(row.wx), d(row.wy), d(row.wz)},
+                        row.radius,
+                        d(row.mass),
+                        row.material};
+  WallTotals totals;
+  kernels_.walls(model_.laws, view, grain, walls, totals);
+  force += four(totals.force);
+  torque += four(totals.torque);
+  if (options_.energies) add_heat(i, totals);
+}
+
 /// Collects the forces of some grains, completes their velocities, and begins the next step.
 template <class Real>
 [[gnu::flatten]] Simulation::PassReport Simulation::move_rows(PairRow<Real>* rows, const StepView& view,
@@ -176,7 +193,7 @@ template <class Real>
     const Real* const first = end_forces + kEndReals<Real> * places[i];
     Collected sum = collect(first, first + kEndReals<Real> * (ends[i + 1] - ends[i]));
     const std::span<WallContact> walls = wall_contacts_.of(i);
-    if (!walls.empty() || options_.energies) add_walls(view, i, walls, sum.force, sum.torque);
+    if (!walls.empty() || options_.energies) add_walls(view, rows[i], i, walls, sum.force, sum.torque);
     GrainMotion& m = motions[i];
     const Four acceleration = gravity + Four(m.inverse_mass) * sum.force;
     const Four angular = Four(m.inverse_inertia) * sum.torque;
@@ -191,15 +208,6 @@ template <class Real>
     }
   }
   return report;
-}
-
-void Simulation::add_walls(const StepView& view, std::size_t i, std::span<WallContact> walls, Four& force,
-                           Four& torque) {
-  WallTotals totals;
-  kernels_.walls(model_.laws, view, grains_.row(i), walls, totals);
-  force += four(totals.force);
-  torque += four(totals.torque);
-  if (options_.energies) add_heat(i, totals);
 }
 
 }  // namespace interstice::dem

@@ -19,7 +19,7 @@ void pairs_entry(const Laws& chosen, const StepView& v, std::size_t begin, std::
 }
 
 template <class L, class Real>
-void walls_entry(const Laws& chosen, const StepView& v, const GrainRow& grain,
+void walls_entry(const Laws& chosen, const StepView& v, const WallGrain& grain,
                  std::span<WallContact> contacts, WallTotals& totals) {
   if constexpr (std::is_same_v<L, Laws>) {
     evaluate_walls<Laws, Real>(chosen, v, grain, contacts, totals);

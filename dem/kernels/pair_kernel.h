@@ -185,7 +185,7 @@ template <class L, class Real>
     const auto m = static_cast<std::size_t>(v.only_material);
     const PairConstants<P> only = constants_of<Real>(v, m, m).template as<P>();
     for (std::size_t g = begin; g < end; ++g) {
-      if (g + kFetchAhead < end) fetch_rows<Real>(v, g + kFetchAhead);
+      if (g + kFetchAhead < v.pairs.groups) fetch_rows<Real>(v, g + kFetchAhead);
       evaluate_group<L, Real>(laws, v, &only, g);
     }
   } else {

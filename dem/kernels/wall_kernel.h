@@ -34,9 +34,9 @@ void touch_wall(const L& laws, const StepView& v, WallContact& contact, const Co
 }
 
 template <class L, class Real>
-void evaluate_wall(const L& laws, const StepView& v, const GrainRow& g, WallContact& contact,
+void evaluate_wall(const L& laws, const StepView& v, const WallGrain& g, WallContact& contact,
                    WallTotals& totals) {
-  const WallDistance surface = wall_distance(v.walls[contact.wall], g.position());
+  const WallDistance surface = wall_distance(v.walls[contact.wall], g.position);
   const bool overlap = surface.distance < g.radius;
   const bool necked = laws.cohesion == CohesionLaw::jkr && contact.state == ContactState::touching;
   if (!overlap && !necked && laws.cohesion != CohesionLaw::van_der_waals)
@@ -65,16 +65,16 @@ void evaluate_wall(const L& laws, const StepView& v, const GrainRow& g, WallCont
   kin.normal = as<Real>(surface.normal);
   kin.effective_mass = static_cast<Real>(g.mass);
   if (laws.cohesion == CohesionLaw::sjkr) kin.area = sphere_plane_area(kin.effective_radius, kin.overlap);
-  Vec3d velocity = g.velocity() - wall_velocity;
-  if (laws.tangential != TangentialLaw::none) velocity -= cross(surface.distance * g.spin(), surface.normal);
+  Vec3d velocity = g.velocity - wall_velocity;
+  if (laws.tangential != TangentialLaw::none) velocity -= cross(surface.distance * g.spin, surface.normal);
   kin.velocity = as<Real>(velocity);
-  if (laws.rolling != RollingLaw::none) kin.relative_spin = as<Real>(g.spin());
+  if (laws.rolling != RollingLaw::none) kin.relative_spin = as<Real>(g.spin);
   touch_wall(laws, v, contact, kin, c, totals);
   totals.power += dot(contact.force, wall_velocity);
 }
 
 template <class L, class Real>
-void evaluate_walls(const L& laws, const StepView& v, const GrainRow& grain, std::span<WallContact> contacts,
+void evaluate_walls(const L& laws, const StepView& v, const WallGrain& grain, std::span<WallContact> contacts,
                     WallTotals& totals) {
   for (WallContact& contact : contacts) evaluate_wall<L, Real>(laws, v, grain, contact, totals);
 }
