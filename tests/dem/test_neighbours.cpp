@@ -10,10 +10,10 @@
 namespace interstice::dem {
 namespace {
 
-std::vector<GrainRow> cloud(std::size_t n, double smallest, double largest, const Box& box,
+std::vector<GrainSite> cloud(std::size_t n, double smallest, double largest, const Box& box,
                             std::uint64_t seed) {
   Random random(seed, 1);
-  std::vector<GrainRow> rows(n);
+  std::vector<GrainSite> rows(n);
   for (std::size_t i = 0; i < n; ++i) {
     rows[i] = {};
     rows[i].radius = smallest * std::pow(largest / smallest, random.uniform());

@@ -40,7 +40,7 @@ std::vector<NewGrain> settled(double restitution) {
   sim.advance(40000);
   std::vector<NewGrain> grains;
   for (const std::uint32_t slot : sim.slots_by_id()) {
-    const GrainRow& g = sim.rows()[slot];
+    const GrainRow g = sim.row(slot);
     grains.push_back({g.position(), g.radius, g.velocity(), g.spin(), 0, 0});
   }
   return grains;

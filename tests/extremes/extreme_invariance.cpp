@@ -147,7 +147,7 @@ bool has_every_memory(const Simulation& sim) {
   bool rolls = sim.model().laws.rolling != RollingLaw::epsd2;
   const PairContacts& list = sim.pair_contacts();
   for (std::size_t k = 0; k < list.places(); ++k) {
-    const GrainRow &a = sim.rows()[list.pair(k).a], &b = sim.rows()[list.pair(k).b];
+    const GrainSite a = sim.site(list.pair(k).a), b = sim.site(list.pair(k).b);
     const bool apart = norm(a.position() - b.position()) > a.radius + b.radius;
     neck = neck || (list.state(k) == ContactState::touching && apart);
     gap = gap || list.state(k) == ContactState::attracting;

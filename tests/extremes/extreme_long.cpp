@@ -60,11 +60,11 @@ TEST(LongRun, AnElasticGasKeepsItsEnergy) {
 /// friction) from rolling on.
 std::vector<bool> bearing(const Simulation& sim) {
   std::vector<bool> held(sim.grains());
-  for (std::size_t slot = 0; slot < sim.rows().size(); ++slot) {
+  for (std::size_t slot = 0; slot < sim.grains(); ++slot) {
     int contacts = 0;
     for (const Adjacent& e : sim.pair_contacts().of(slot)) contacts += sim.pair_contacts().touching(e.pair);
     for (const WallContact& w : sim.wall_contacts().of(slot)) contacts += w.touching();
-    held[static_cast<std::size_t>(sim.rows()[slot].id)] = contacts >= 3;
+    held[static_cast<std::size_t>(sim.site(slot).id)] = contacts >= 3;
   }
   return held;
 }

@@ -134,7 +134,7 @@ Simulation dropped_bed(std::size_t count, std::uint64_t seed, bool reversed) {
     // stirred, so that every grain collides some tens of times before it comes to rest
     const Vec3d velocity{rain.random.uniform(-0.4, 0.4), rain.random.uniform(-0.4, 0.4),
                          rain.random.uniform(-0.4, 0.4)};
-    grains.push_back({placed.rows()[slot].position(), kRadius, velocity, {}, 0, 0});
+    grains.push_back({placed.site(slot).position(), kRadius, velocity, {}, 0, 0});
   }
   if (reversed) std::reverse(grains.begin(), grains.end());
   Simulation sim(m, 0.15 * rayleigh_time(kRadius, kSoft));

@@ -89,7 +89,7 @@ Pairs touching_pairs(const Simulation& sim) {
   Pairs touching;
   for (std::size_t k = 0; k < contacts.places(); ++k) {
     if (!contacts.touching(k)) continue;
-    touching.emplace_back(sim.rows()[contacts.pair(k).a].id, sim.rows()[contacts.pair(k).b].id);
+    touching.emplace_back(sim.site(contacts.pair(k).a).id, sim.site(contacts.pair(k).b).id);
   }
   std::sort(touching.begin(), touching.end());
   return touching;

@@ -69,7 +69,7 @@ std::vector<NewGrain> filled(const Hopper& h) {
   sim.advance(static_cast<std::int64_t>(0.2 / step_of()));
   std::vector<NewGrain> grains;
   for (const std::uint32_t slot : sim.slots_by_id())
-    grains.push_back({sim.rows()[slot].position(), kDiameter / 2, {}, {}, 0, 0});
+    grains.push_back({sim.site(slot).position(), kDiameter / 2, {}, {}, 0, 0});
   return grains;
 }
 

@@ -53,8 +53,8 @@ void relax(std::vector<NewGrain>& grains, double radius, std::int64_t steps, dou
   const PairContacts& contacts = sim.pair_contacts();
   for (std::size_t k = 0; k < contacts.places(); ++k) {
     if (!contacts.touching(k)) continue;
-    const Vec3d apart = separation(sim.rows()[contacts.pair(k).a].position(),
-                                   sim.rows()[contacts.pair(k).b].position(), sim.search_space());
+    const Vec3d apart = separation(sim.site(contacts.pair(k).a).position(),
+                                   sim.site(contacts.pair(k).b).position(), sim.search_space());
     virial += dot(contacts.force(k), apart);
   }
   *pressure = virial / (3 * kSide * kSide * kSide);

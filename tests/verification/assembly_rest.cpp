@@ -36,8 +36,10 @@ const std::vector<BackEnd>& back_ends() {
   return list;
 }
 
-const GrainRow& grain_of(const Simulation& sim, std::int64_t id) {
-  return *std::find_if(sim.rows().begin(), sim.rows().end(), [&](const GrainRow& g) { return g.id == id; });
+GrainRow grain_of(const Simulation& sim, std::int64_t id) {
+  std::size_t slot = 0;
+  while (sim.site(slot).id != id) ++slot;
+  return sim.row(slot);
 }
 
 /// Sets all velocities to zero; the springs of the contacts stay as they are.
@@ -137,7 +139,7 @@ TEST_P(SizeRatio, ASmallSphereRollsDownTheCreviceOfTwoLargeOnes) {
       double angle = 0, angle_rate = 0;
       while (angle < target && sim.time() < 3 * c.time_to(target)) {
         sim.advance(20);
-        const GrainRow &small = grain_of(sim, 2), &large = grain_of(sim, 0);
+        const GrainRow small = grain_of(sim, 2), large = grain_of(sim, 0);
         angle = std::atan2(small.y - large.y, small.z - large.z);
         angle_rate = (small.vy * std::cos(angle) - small.vz * std::sin(angle)) / c.rho;
       }

@@ -67,15 +67,17 @@ inline Model on_rigid_floor(const Material& material, const PairCoefficients& pa
   return m;
 }
 
-inline const GrainRow& grain_of(const Simulation& sim, std::int64_t id) {
-  return *std::find_if(sim.rows().begin(), sim.rows().end(), [&](const GrainRow& g) { return g.id == id; });
+inline GrainRow grain_of(const Simulation& sim, std::int64_t id) {
+  std::size_t slot = 0;
+  while (sim.site(slot).id != id) ++slot;
+  return sim.row(slot);
 }
 
 /// Between the surfaces of the only two bodies, two grains or a grain and the floor z = 0 [m].
 inline double gap_of(const Simulation& sim) {
-  const GrainRow& a = grain_of(sim, 0);
+  const GrainRow a = grain_of(sim, 0);
   if (sim.grains() == 1) return a.z - a.radius;
-  const GrainRow& b = grain_of(sim, 1);
+  const GrainRow b = grain_of(sim, 1);
   return norm(a.position() - b.position()) - a.radius - b.radius;
 }
 

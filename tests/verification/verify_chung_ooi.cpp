@@ -31,7 +31,7 @@ Impact on_floor(const Material& material, double radius, const PairCoefficients&
   sim.add_grains(
       std::vector<NewGrain>{sphere({0, 0, radius + 2.5 * sim.time_step() * speed}, radius, velocity, spin)});
   EXPECT_TRUE(meet(sim, 20000).parted);
-  const GrainRow& g = grain_of(sim, 0);
+  const GrainRow g = grain_of(sim, 0);
   return {g.velocity(), g.spin()};
 }
 
@@ -214,7 +214,7 @@ PairAfter meet_spinning(const SpinningPair& s, const BackEnd& b) {
       sphere({-s.radius_a - gap / 2, 0, 0}, s.radius_a, {s.speed_a, 0, 0}, {0, s.spin_a, 0}, 0),
       sphere({s.radius_b + gap / 2, 0, 0}, s.radius_b, {s.speed_b, 0, 0}, {0, s.spin_b, 0}, 1)});
   EXPECT_TRUE(meet(sim, 20000).parted);
-  const GrainRow &one = grain_of(sim, 0), &two = grain_of(sim, 1);
+  const GrainRow one = grain_of(sim, 0), two = grain_of(sim, 1);
   return {one.velocity(), one.spin(), two.velocity(), two.spin()};
 }
 

@@ -88,7 +88,7 @@ Simulation collision(const Laws& laws, const View& view, const SimulationOptions
 Outcome outcome(const Simulation& sim) {
   Outcome out;
   for (std::size_t i = 0; i < 3; ++i) {
-    const GrainRow& g = grain_of(sim, static_cast<std::int64_t>(i));
+    const GrainRow g = grain_of(sim, static_cast<std::int64_t>(i));
     out.position[i] = g.position(), out.velocity[i] = g.velocity(), out.spin[i] = g.spin();
   }
   return out;
@@ -144,7 +144,7 @@ TEST_P(Invariance, TheCollisionIsOne) {
     sim.advance(1);
     for (std::size_t k = 0; k < sim.pair_contacts().places(); ++k) {
       const PairRef p = sim.pair_contacts().pair(k);
-      const auto ids = static_cast<std::size_t>(sim.rows()[p.a].id + sim.rows()[p.b].id);
+      const auto ids = static_cast<std::size_t>(sim.site(p.a).id + sim.site(p.b).id);
       if (sim.pair_contacts().touching(k)) pairs[ids - 1] = true;
     }
     for (const WallContact& w : sim.wall_contacts().entries) wall = wall || w.touching();
@@ -184,7 +184,7 @@ TEST_P(Invariance, OfMomentumAndAngularMomentum) {
     const auto momenta = [&] {
       Vec3d linear{0, 0, 0}, angular{0, 0, 0};
       for (std::int64_t i = 0; i < 3; ++i) {
-        const GrainRow& g = grain_of(sim, i);
+        const GrainRow g = grain_of(sim, i);
         linear += g.mass * g.velocity();
         angular +=
             g.mass * cross(g.position(), g.velocity()) + (0.4 * g.mass * g.radius * g.radius) * g.spin();
@@ -215,7 +215,7 @@ TEST_P(Invariance, OfMomentumToTheBitForEqualGrains) {
                               sphere({1.05 * kRadius, 0, 0}, kRadius, {-v, -0.3 * v, -0.1 * v}, {w, 0, w})});
     for (int i = 0; i < 40; ++i) {
       sim.advance(100);
-      const GrainRow &a = grain_of(sim, 0), &b = grain_of(sim, 1);
+      const GrainRow a = grain_of(sim, 0), b = grain_of(sim, 1);
       EXPECT_EQ(a.velocity(), -b.velocity()) << name_of_laws(laws);
     }
   }

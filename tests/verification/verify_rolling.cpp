@@ -89,7 +89,7 @@ TEST_P(Rolling, DownASlopeWithTheSlider) {
     const double angle = degrees * M_PI / 180;
     Simulation sim = place({.angle = angle, .friction = mu, .tangential = TangentialLaw::slider}, GetParam());
     advance_to(sim, end);
-    const GrainRow& s = grain_of(sim, 0);
+    const GrainRow s = grain_of(sim, 0);
     const bool rolls = std::tan(angle) <= 3.5 * mu;
     const double a = rolls ? 5.0 / 7 * g * std::sin(angle) : g * (std::sin(angle) - mu * std::cos(angle));
     const std::string slope = fmt::format("{} deg: ", degrees);
@@ -222,7 +222,7 @@ double first_bounce(double stiffness, double e, const BackEnd& b) {
     sim.advance(1);
     rises = grain_of(sim, 0).vz > 0 && gap_of(sim) > 0;
   }
-  const GrainRow& g = grain_of(sim, 0);
+  const GrainRow g = grain_of(sim, 0);
   return g.z + g.vz * g.vz / (2 * kGravity);  // in flight Verlet is exact
 }
 
