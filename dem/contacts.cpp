@@ -120,7 +120,7 @@ void PairContacts::replace(const std::vector<PairRef>& found, const std::vector<
   });
   build_adjacency(sites);
   ring_ = make_ring(sweep_, pairs_, all_);
-  ring_forces_.reset(ring_.places.places * end_reals_ + 1);  // collecting reads one number on
+  ring_forces_.reset((ring_.places.places + kEndsAtOnce) * end_reals_);  // collecting reads on
   kept_forces_.reset(ring_.kept * end_reals_ + 1);
   end_forces_.reset(0);
   if (kept_.heat) heat_.assign(pairs_.size(), {});
@@ -143,7 +143,7 @@ void PairContacts::set_touching(std::size_t k, const TangentialSpring<double>& s
 }
 
 void PairContacts::keep_forces(bool all) {
-  const std::size_t n = all ? all_.places * end_reals_ + 1 : 0;
+  const std::size_t n = all ? (all_.places + kEndsAtOnce) * end_reals_ : 0;
   if (end_forces_.size() != n) end_forces_.reset(n);
 }
 
@@ -230,8 +230,9 @@ void WallContacts::replace(const std::vector<GrainSite>& sites, const std::vecto
         if (wall_distance(walls[w], sites[s].position()).distance >= sites[s].radius + reach) continue;
         WallContact contact;
         contact.wall = w;
-        if (old_slot[s] != PairContacts::kNoSlot) {
-          for (const WallContact& old : of(old_slot[s])) {
+        const std::uint32_t before = old_slot.empty() ? static_cast<std::uint32_t>(s) : old_slot[s];
+        if (before != PairContacts::kNoSlot) {
+          for (const WallContact& old : of(before)) {
             if (old.wall == w) contact = old;
           }
         }

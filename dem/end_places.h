@@ -19,6 +19,9 @@ struct PairEnds {
   std::uint32_t a, b;
 };
 
+/// A grain collects so many ends at a time, the last of which may be others'.
+inline constexpr std::size_t kEndsAtOnce = 4;
+
 struct EndPlaces {
   std::vector<std::uint32_t> first;  // place of each slot's first end
   LargeVector<PairEnds> of_pair;     // empty places of the list: one place that nobody reads

@@ -172,7 +172,7 @@ double Simulation::wall_travel() const {
     const auto corner = [](const Shape& s) {
       return std::holds_alternative<Plane>(s) ? std::get<Plane>(s).point : std::get<Box>(s).lo;
     };
-    farthest = std::max(farthest, norm(corner(walls_[w]) - corner(built_walls_[w])));
+    farthest = std::max(farthest, norm(corner(walls_[w]) - corner(refreshed_walls_[w])));
   }
   return farthest;
 }
@@ -180,17 +180,13 @@ double Simulation::wall_travel() const {
 /// `moved_` adds up the longest steps; where grains go to and fro it grows beyond how far they are, and is
 /// measured anew before anything is done about it.
 void Simulation::rebuild_if_needed() {
-  const auto reaches = [&](double gap, bool walls) {
-    const auto at_least = [&](double g) {
-      return moved_ + std::max(moved_, walls ? wall_travel() : 0.0) >= g;
-    };
-    if (!at_least(gap)) return false;
+  if (list_valid_ && 2 * moved_ >= skin_) {
     moved_ = std::min(moved_, farthest_moved());
-    return at_least(0.75 * gap);  // else it would be measured again in a few steps
-  };
-  if (!list_valid_ || reaches(skin_, true)) {
+    list_valid_ = 2 * moved_ < 0.75 * skin_;  // else it would be measured again in a few steps
+  }
+  if (!list_valid_) {
     rebuild();
-  } else if (2 * moved_since_refresh_ >= near_gap_) {
+  } else if (moved_since_refresh_ + std::max(moved_since_refresh_, wall_travel()) >= near_gap_) {
     refresh({}, grains_.sites());
   }
 }
@@ -264,7 +260,6 @@ void Simulation::rebuild() {
   space.skin += attraction_;
   candidates_ = options_.reference ? find_pairs_brute_force(sites, space) : find_pairs(sites, space);
   refresh(old_slot, sites);
-  wall_contacts_.replace(sites, walls_, space.skin, old_slot);
   built_ids_.resize(sites.size());
   const auto material = [&](std::size_t s) {
     return grains_.with_rows([&](const auto& rows) { return static_cast<std::int64_t>(rows[s].material); });
@@ -275,13 +270,13 @@ void Simulation::rebuild() {
     grains_.labels()[s].built = sites[s].position();
     if (material(s) != only_material_) only_material_ = -1;
   }
-  built_walls_ = walls_;
   moved_ = 0;
   list_valid_ = true;
   ++rebuilds_;
 }
 
-/// Of the candidates, those that may touch before grains have moved by half the gap.
+/// Of the candidates, those that may touch before grains have moved by half the gap; and the walls near
+/// grains.
 void Simulation::refresh(const std::vector<std::uint32_t>& old_slot, const std::vector<GrainSite>& sites) {
   SearchSpace space = search_space();
   space.skin = near_gap_ + attraction_;
@@ -296,6 +291,8 @@ void Simulation::refresh(const std::vector<std::uint32_t>& old_slot, const std::
   pairs.reserve(candidates_.size());
   for (const auto& n : near) pairs.insert(pairs.end(), n.begin(), n.end());
   pair_contacts_.replace(pairs, sites, old_slot, parts());
+  wall_contacts_.replace(sites, walls_, space.skin, old_slot);
+  refreshed_walls_ = walls_;
   moved_since_refresh_ = 0;
 }
 

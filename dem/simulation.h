@@ -174,7 +174,7 @@ class Simulation {
   double moved_since_refresh_ = 0;   // at most [m]
   double moved_ = 0;                 // at most this far is any grain from where the list was built [m]
   double fastest_ = 0;               // a bound of the speed in the last step [m/s]
-  std::vector<Shape> built_walls_;   // as they stood when the list was built
+  std::vector<Shape> refreshed_walls_;  // as they stood when walls near grains were listed
   std::vector<std::int64_t>
       built_ids_;  // ids by slot when the list was built, where slots have changed since
   std::int64_t rebuilds_ = 0, sorted_at_ = -1;

@@ -260,23 +260,6 @@ Pack<T, N> length_of(const Vec3<Pack<T, N>>& v) {
   }
 }
 
-/// The same numbers as another scalar type.
-template <class U, class T, int N>
-Pack<U, N> converted(const Pack<T, N>& a) {
-  if constexpr (std::is_same_v<U, T>) {
-    return a;
-  } else if constexpr (kFitsRegister<T, N> && kFitsRegister<U, N>) {
-    return __builtin_convertvector(a.lanes, typename Pack<U, N>::Lanes);
-  } else if constexpr (kFitsRegister<U, N>) {  // two registers of doubles to one of floats
-    const auto lo = converted<U>(a.lo), hi = converted<U>(a.hi);
-    Pack<U, N> joined;
-    __builtin_memcpy(&joined.lanes, &lo.lanes, sizeof(lo.lanes));
-    __builtin_memcpy(reinterpret_cast<char*>(&joined.lanes) + sizeof(lo.lanes), &hi.lanes, sizeof(hi.lanes));
-    return joined;
-  } else {
-    return {converted<U>(a.lo), converted<U>(a.hi)};
-  }
-}
 /// The first and the last lanes.
 template <class T, int N>
 Pack<T, N / 2> lower_half(const Pack<T, N>& a) {
@@ -297,6 +280,26 @@ Pack<T, N / 2> upper_half(const Pack<T, N>& a) {
     return half;
   } else {
     return a.hi;
+  }
+}
+
+/// The same numbers as another scalar type.
+template <class U, class T, int N>
+Pack<U, N> converted(const Pack<T, N>& a) {
+  if constexpr (std::is_same_v<U, T>) {
+    return a;
+  } else if constexpr (kFitsRegister<T, N> && kFitsRegister<U, N>) {
+    return __builtin_convertvector(a.lanes, typename Pack<U, N>::Lanes);
+  } else if constexpr (kFitsRegister<U, N>) {  // two registers of doubles to one of floats
+    const auto lo = converted<U>(a.lo), hi = converted<U>(a.hi);
+    Pack<U, N> joined;
+    __builtin_memcpy(&joined.lanes, &lo.lanes, sizeof(lo.lanes));
+    __builtin_memcpy(reinterpret_cast<char*>(&joined.lanes) + sizeof(lo.lanes), &hi.lanes, sizeof(hi.lanes));
+    return joined;
+  } else if constexpr (kFitsRegister<T, N>) {
+    return {converted<U>(lower_half(a)), converted<U>(upper_half(a))};
+  } else {
+    return {converted<U>(a.lo), converted<U>(a.hi)};
   }
 }
 template <class U, class T, int N>
