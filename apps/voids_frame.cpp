@@ -124,6 +124,7 @@ FramePlan plan_frame(const io::ParticleFrame& frame, const VoidsOptions& options
   }
   computed.periodic = options.periodic;
   apply(options.method, computed);
+  computed.precision = options.precision;
   computed.average_length = options.average;
   computed.density = options.density;
   check_method_here(computed, options, where);

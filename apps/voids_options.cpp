@@ -153,6 +153,7 @@ VoidsOptions read_voids_options(const VoidsWords& words) {
     check_together(options.method);
   });
   options.method.scales = words.scales;
+  if (words.compute.precision == "mixed") options.precision = voxel::Precision::mixed;
   attempt(!words.average.empty(),
           [&] { options.average = positive(words.average, Dimension::length, "--average"); });
   for (const auto& slice : words.slices) {

@@ -37,6 +37,7 @@ struct VoidsOptions {
   std::optional<Box> box;  // [m]
   std::array<bool, 3> periodic{false, false, false};
   MethodOptions method;
+  voxel::Precision precision = voxel::Precision::real64;
   double average = 0;  // [m]
   std::vector<scene::Slice> slices;
   std::vector<scene::Line> lines;

@@ -72,11 +72,14 @@ struct Sums {
   std::vector<double> densities;   // of those
 };
 
-void add_waiting(const Lattice& lattice, bool mass, Sums& sums) {
+void add_waiting(const FieldRequest& request, bool mass, Sums& sums) {
   if (sums.small.empty()) return;
-  add_small_spheres(lattice, sums.small.data(), sums.small.size(), nullptr, sums.solid);
-  if (mass)
-    add_small_spheres(lattice, sums.small.data(), sums.small.size(), sums.densities.data(), sums.mass);
+  const auto add = [&](const double* weights, CellRows& rows) {
+    add_small_spheres(request.lattice, sums.small.data(), sums.small.size(), weights, request.precision,
+                      rows);
+  };
+  add(nullptr, sums.solid);
+  if (mass) add(sums.densities.data(), sums.mass);
   sums.small.clear();
   sums.densities.clear();
 }
@@ -138,7 +141,7 @@ void add_spheres(const Accumulation& what, std::size_t bin, const CellRange& cel
       if (what.mass) sums.densities.push_back(density);
       continue;
     }
-    add_waiting(lattice, what.mass, sums);  // spheres are added in ascending order
+    add_waiting(what.request, what.mass, sums);  // spheres are added in ascending order
     const double* weight = what.mass ? &density : nullptr;
     const double scale = what.kernel ? what.kernel->scale[entry.sphere] : 0;
     if (scale > 0)
@@ -146,7 +149,7 @@ void add_spheres(const Accumulation& what, std::size_t bin, const CellRange& cel
     else
       add_sphere(what.request, sphere, intersection(bounding, cells), weight, sums);
   }
-  add_waiting(lattice, what.mass, sums);
+  add_waiting(what.request, what.mass, sums);
 }
 
 std::unique_ptr<Leaf> new_leaf(const CellRange& cells, float background) {
@@ -169,6 +172,7 @@ void set_active(Leaf& leaf, const std::uint8_t (&rows)[kBlock * kBlock]) {
 /// The leaves of one block in the making.
 struct Leaves {
   float *solid, *empty, *mass = nullptr, *available = nullptr;
+  double least_void = 0;  // voxels with less count as negative
   std::uint8_t solid_on[kBlock * kBlock] = {}, any_on[kBlock * kBlock] = {}, wall_on[kBlock * kBlock] = {};
 };
 
@@ -182,7 +186,7 @@ void finish_row(const double* solid, const double* mass, const double* wall, int
     const double share = wall ? wall[k] : 0, available = 1 - share, empty = available - solid[k];
     result.void_min = std::min(result.void_min, empty);
     result.void_max = std::max(result.void_max, empty);
-    result.negative += empty < -1e-12;
+    result.negative += empty < leaves.least_void;
     result.solid += solid[k];
     result.wall += share;
     const auto rounded = static_cast<float>(solid[k]);
@@ -220,6 +224,7 @@ void finish_block(const Accumulation& what, const CellRange& cells, const double
   if (mass) result.mass_leaf = new_leaf(cells, 0.0f);
   if (walls) result.available_leaf = new_leaf(cells, 1.0f);
   Leaves leaves;
+  leaves.least_void = negative_below(what.request.precision);
   leaves.solid = result.solid_leaf->buffer().data();
   leaves.empty = result.void_leaf->buffer().data();
   if (mass) leaves.mass = result.mass_leaf->buffer().data();

@@ -8,6 +8,7 @@
 
 #include "voxel/float_grid.h"
 #include "voxel/lattice.h"
+#include "voxel/precision.h"
 #include "voxel/solids.h"
 #include "voxel/spheres.h"
 
@@ -27,8 +28,9 @@ struct FieldRequest {
                           // leave of a voxel is deleted, as CFD couplings do; 0: kept
   double kernel_length = 0;  // [m] how far Method::kernel reaches from a centre along each axis
   Overlap overlap = Overlap::sum;
-  double average_length = 0;  // edge of the averaging cube [m]; 0: no averaged grids
-  double density = 0;         // [kg/m^3] used where spheres carry none; 0: no mass density
+  Precision precision = Precision::real64;  // of Method::exact; the others work in double
+  double average_length = 0;                // edge of the averaging cube [m]; 0: no averaged grids
+  double density = 0;                       // [kg/m^3] used where spheres carry none; 0: no mass density
 };
 
 /// Sums taken in double before anything is rounded to a grid's floats.
@@ -39,7 +41,7 @@ struct FieldSums {
   double available_volume = 0;        // [m^3] box minus walls
   double mass = 0;                    // [kg] inside the box
   double void_min = 0, void_max = 0;  // over all voxels
-  std::int64_t negative_voxels = 0;   // voxels with void fraction < -1e-12
+  std::int64_t negative_voxels = 0;   // voxels with void fraction < negative_below()
   double written_solid_volume = 0;    // [m^3] summed over the float grid
   double overlap_volume = 0;          // [m^3] taken off where spheres overlap, for Overlap::united
   double deleted_volume = 0;          // [m^3] deleted by FieldRequest::least_void

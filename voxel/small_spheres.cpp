@@ -23,8 +23,8 @@ void CellRows::reset(const CellRange& cells) {
 }
 
 void add_small_spheres(const Lattice& lattice, const SmallSphere* spheres, std::size_t count,
-                       const double* weights, CellRows& rows) {
-  HWY_DYNAMIC_DISPATCH(add_spheres)(lattice, spheres, count, weights, rows);
+                       const double* weights, Precision precision, CellRows& rows) {
+  HWY_DYNAMIC_DISPATCH(add_spheres)(lattice, spheres, count, weights, precision, rows);
 }
 
 const char* small_spheres_target() { return HWY_DYNAMIC_DISPATCH(target_name)(); }

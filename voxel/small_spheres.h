@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "voxel/overlap.h"
+#include "voxel/precision.h"
 
 namespace interstice::voxel {
 
@@ -49,7 +50,7 @@ struct SmallSphere {
 /// Adds `weights[s]` times (1 where `weights` is null) the share of each cell that sphere s fills, sphere by
 /// sphere in their order, to the rows; cells outside them are left out. Cubic lattices only.
 void add_small_spheres(const Lattice& lattice, const SmallSphere* spheres, std::size_t count,
-                       const double* weights, CellRows& rows);
+                       const double* weights, Precision precision, CellRows& rows);
 
 /// The instruction set that add_small_spheres uses on this machine, as in "AVX3".
 const char* small_spheres_target();
