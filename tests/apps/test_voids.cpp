@@ -48,6 +48,46 @@ double sphere_volume(const std::string& sample_path, std::int64_t frame_number) 
   return static_cast<double>(4 * 3.14159265358979323846264338327950288L / 3 * sum);
 }
 
+// Files that LIGGGHTS, LAMMPS and YADE wrote: the sum is that of the radii that they were given.
+TEST_F(Voids, TheSolidVolumeInFilesOfOtherProgramsIsThatOfTheirGrains) {
+  long double sum = 0;
+  for (int i = 0; i < 60; ++i) {
+    const long double r = 1e-5L + (i % 11) * 1e-6L;
+    sum += r * r * r;
+  }
+  const auto truth = static_cast<double>(4 * 3.14159265358979323846264338327950288L / 3 * sum);
+  std::string inputs;
+  const std::vector<std::string> stems{"liggghts",         "liggghts-scaled",         "liggghts-sixdigits",
+                                       "lammps-triclinic", "lammps-triclinic-scaled", "lammps-unwrapped",
+                                       "yade-mass"};
+  for (const char* name :
+       {"liggghts.dump", "liggghts-scaled.dump", "liggghts-sixdigits.dump.gz", "lammps-triclinic.dump",
+        "lammps-triclinic-scaled.dump.gz", "lammps-unwrapped.dump", "yade-mass.txt"})
+    inputs += sample(std::string("programs/") + name) + " ";
+  const Outcome outcome = call(inputs + to_out() + "--voxel 9um");
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  for (const std::string& stem : stems) {
+    const Json s = Json::parse(slurp(fs::path(out()) / stem / "summary.json"));
+    EXPECT_EQ(s["particles"], 60) << stem;
+    EXPECT_NEAR(s["solid_volume_particles_m3"].get<double>(), truth, 1e-14 * truth) << stem;
+    EXPECT_NEAR(s["solid_volume_field_m3"].get<double>(), truth, 1e-13 * truth) << stem;
+  }
+  // six digits are 1 nm here: fine for these voxels
+  EXPECT_EQ(outcome.err.find("positions are written to"), std::string::npos) << outcome.err;
+  EXPECT_NE(outcome.err.find("lammps-triclinic.dump: the box is tilted and periodic along y"),
+            std::string::npos);
+}
+
+TEST_F(Voids, SingleIsSaidAndKeepsTheVolume) {
+  const Outcome outcome = call(sample("two-frames.dump") + to_out() + "--voxel 17um --precision mixed");
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const Json s = Json::parse(slurp(fs::path(out()) / "two-frames" / "summary.json"));
+  EXPECT_EQ(s["method"], "exact, single");
+  const double error = s["relative_conservation_error"].get<double>();
+  EXPECT_GT(error, 1e-13);  // not double
+  EXPECT_LE(error, 1e-6);
+}
+
 TEST_F(Voids, LastFrameOfADumpWithAllFiles) {
   const Outcome outcome =
       call(sample("two-frames.dump") + to_out() +
