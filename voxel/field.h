@@ -5,10 +5,12 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "voxel/float_grid.h"
 #include "voxel/lattice.h"
 #include "voxel/precision.h"
+#include "voxel/quantities.h"
 #include "voxel/solids.h"
 #include "voxel/spheres.h"
 
@@ -31,6 +33,7 @@ struct FieldRequest {
   Precision precision = Precision::real64;  // of Method::exact; the others work in double
   double average_length = 0;                // edge of the averaging cube [m]; 0: no averaged grids
   double density = 0;                       // [kg/m^3] used where spheres carry none; 0: no mass density
+  QuantityRequest quantities;
 };
 
 /// Sums taken in double before anything is rounded to a grid's floats.
@@ -53,6 +56,10 @@ struct FieldSums {
 /// solid or wall, in the available grid voxels with wall (blocks that one wall fills are tiles there), in
 /// averaged grids voxels whose average is not zero.
 ///
+/// Quantities have values in voxels with solid. Their averages follow from sums over the same window: means
+/// over solid are sums of what solid brings over the sum of solid, those per volume are over what is
+/// available, as the solid fraction is; a temperature is then about the mean velocity of the window.
+///
 /// Averages are taken over a cube centred on each voxel: sum of solid / sum of available, with voxels that
 /// the cube's faces cut counted in part. Only what the cube holds of the box and outside walls counts, so at
 /// an edge that is not periodic it is cut off there; across a periodic edge it goes on at the other side (at
@@ -68,11 +75,13 @@ struct Field {
   FloatGridPtr mass_density;             // [kg/m^3]; null where no density is known
   FloatGridPtr solid_fraction_averaged;  // sum of solid / sum of available; null unless asked for
   FloatGridPtr void_fraction_averaged;   // 1 - solid_fraction_averaged
+  std::vector<QuantityGrid> quantities;  // as asked for: components one after the other
 };
 
 /// Computes the fields asked for. Same bits for any number of threads; a voxel's bits depend only on the
 /// spheres that touch it (averages: up to rounding). Throws InputError on spheres that are not finite
-/// and positive, cells that are not cubic, or averages that would take more than 4 GiB.
+/// and positive, cells that are not cubic, quantities whose columns are missing, or averages that would take
+/// more than 4 GiB.
 Field compute_field(const SpheresView& spheres, const Solids& solids, const FieldRequest& request);
 
 }  // namespace interstice::voxel

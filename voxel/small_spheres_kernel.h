@@ -259,6 +259,45 @@ HWY_INLINE Span span_of(const CellRange& bounding, const CellRange& cells, int a
           static_cast<int>(std::min(cells.hi[axis], bounding.hi[axis]) - bounding.lo[axis])};
 }
 
+/// Adds `part` of the way to a sphere's velocity to the running means at `at`, and to the second moment
+/// behind them what that leaves: `before` is the share of the spheres before it (channels.h).
+HWY_INLINE void add_velocity(const Channels& channels, std::size_t sphere, Vec<double> part,
+                             Vec<double> before, std::int64_t plane, double* at) {
+  const Tag<double> d;
+  Vec<double> squared = hn::Zero(d);
+  for (std::size_t axis = 0; axis < 3; ++axis, at += plane) {
+    const Vec<double> mean = hn::LoadU(d, at), ahead = hn::Sub(hn::Set(d, channels.v[axis][sphere]), mean);
+    hn::StoreU(hn::MulAdd(part, ahead, mean), d, at);
+    squared = hn::MulAdd(ahead, ahead, squared);
+  }
+  if (channels.moment) hn::StoreU(hn::MulAdd(hn::Mul(part, before), squared, hn::LoadU(d, at)), d, at);
+}
+
+/// Adds a row of shares to all channels; `row` is that of channel 0.
+template <class T>
+HWY_INLINE void add_row(const T* shares, std::size_t sphere, const Channels& channels, std::int64_t plane,
+                        double* row) {
+  const Tag<double> d;
+  for_row<double>([&](int k) {
+    const Vec<double> share = load_double(shares + k), before = hn::LoadU(d, row + k);
+    const Vec<double> after = hn::Add(before, share);
+    hn::StoreU(after, d, row + k);
+    if (channels.none()) return;
+    double* at = row + k + plane;
+    const double* weights = channels.weights_of(sphere);
+    for (int c = 0; c < channels.linear; ++c, at += plane)
+      hn::StoreU(hn::MulAdd(hn::Set(d, weights[c]), share, hn::LoadU(d, at)), d, at);
+    if (channels.groups > 0 && channels.group[sphere] >= 0) {
+      double* own = at + channels.group[sphere] * plane;
+      hn::StoreU(hn::Add(hn::LoadU(d, own), share), d, own);
+    }
+    if (!channels.velocity) return;
+    const auto some = hn::Gt(share, hn::Zero(d));
+    const Vec<double> part = hn::IfThenElseZero(some, hn::Div(share, after));
+    add_velocity(channels, sphere, part, before, plane, at + channels.groups * plane);
+  });
+}
+
 template <class T>
 HWY_INLINE void set_ball(const Lattice& lattice, const SmallSphere& small, Ball<T>& ball) {
   const PlacedSphere& sphere = small.sphere;
@@ -275,39 +314,46 @@ HWY_INLINE void set_ball(const Lattice& lattice, const SmallSphere& small, Ball<
 }
 
 template <class T>
-HWY_INLINE void add_sphere(const Lattice& lattice, const SmallSphere& small, double weight_of_all,
+HWY_INLINE void add_sphere(const Lattice& lattice, const SmallSphere& small, const Channels& channels,
                            Ball<T>& ball, CellRows& rows) {
-  const Tag<double> d;
   set_ball(lattice, small, ball);
   const CellRange &bounding = small.bounding, &cells = rows.cells();
   const double cells_across = small.sphere.radius / lattice.h.x;
   const T scale = static_cast<T>(cells_across * cells_across * cells_across);
-  const Vec<double> weight = hn::Set(d, weight_of_all);
   const Span xs = span_of(bounding, cells, 0), ys = span_of(bounding, cells, 1);
   for (int i = xs.first; i < xs.last; ++i) {
     for (int j = ys.first; j < ys.last; ++j) {
       HWY_ALIGN T share[kPlanes];
       row_shares(ball, i, j, scale, share);
       double* row = rows.row(bounding.lo[0] + i, bounding.lo[1] + j) + (bounding.lo[2] - cells.lo[2]);
-      for_row<double>([&](int k) {
-        hn::StoreU(hn::MulAdd(weight, load_double(share + k), hn::LoadU(d, row + k)), d, row + k);
-      });
+      add_row(share, small.index, channels, rows.plane(), row);
     }
   }
 }
 
-void add_spheres(const Lattice& lattice, const SmallSphere* spheres, std::size_t count, const double* weights,
-                 Precision precision, CellRows& rows) {
+void add_spheres(const Lattice& lattice, const SmallSphere* spheres, std::size_t count, Precision precision,
+                 const Channels& channels, CellRows& rows) {
   Ball<double> ball;
   Ball<float> single;
   const double reach = precision == Precision::mixed ? kSingleReach * lattice.h.x : 0;
   for (std::size_t s = 0; s < count; ++s) {
-    const double weight = weights ? weights[s] : 1.0;
     if (spheres[s].sphere.radius <= reach)
-      add_sphere(lattice, spheres[s], weight, single, rows);
+      add_sphere(lattice, spheres[s], channels, single, rows);
     else
-      add_sphere(lattice, spheres[s], weight, ball, rows);
+      add_sphere(lattice, spheres[s], channels, ball, rows);
   }
+}
+
+void add_block(const double* shares, const CellRange& block, std::size_t sphere, const Channels& channels,
+               CellRows& rows) {
+  static_assert(kPlanes >= kBlock && CellRows::kRoom >= kPlanes);
+  HWY_ALIGN double row[kPlanes] = {};
+  const auto nz = static_cast<int>(block.size(2));
+  for (std::int64_t i = block.lo[0]; i < block.hi[0]; ++i)
+    for (std::int64_t j = block.lo[1]; j < block.hi[1]; ++j) {
+      for (int k = 0; k < nz; ++k) row[k] = *shares++;
+      add_row(row, sphere, channels, rows.plane(), rows.row(i, j) + (block.lo[2] - rows.cells().lo[2]));
+    }
 }
 
 const char* target_name() { return hwy::TargetName(HWY_TARGET); }

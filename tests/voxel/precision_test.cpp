@@ -25,8 +25,8 @@ void add(const Lattice& lattice, const Vec3d& center, double radius, Both& both)
   both.cells = small.bounding;
   both.real64.reset(small.bounding);
   both.mixed.reset(small.bounding);
-  add_small_spheres(lattice, &small, 1, nullptr, Precision::real64, both.real64);
-  add_small_spheres(lattice, &small, 1, nullptr, Precision::mixed, both.mixed);
+  add_small_spheres(lattice, &small, 1, Precision::real64, {}, both.real64);
+  add_small_spheres(lattice, &small, 1, Precision::mixed, {}, both.mixed);
 }
 
 template <class Visit>
