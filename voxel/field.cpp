@@ -46,13 +46,15 @@ struct Inside {
   std::vector<double> each;  // [m^3] per sphere, where asked for
 };
 
-double clipped_volume(const Lattice& lattice, const PlacedSphere& sphere) {
+/// Volume [m^3] of the sphere inside the box; nothing where it does not touch the box.
+std::optional<double> clipped_volume(const Lattice& lattice, const PlacedSphere& sphere) {
   const CellRange cells = bounding_cells(lattice, sphere), box = all_cells(lattice);
-  if (!touches(lattice, sphere, box)) return 0;
+  bool inside = true;
   for (int axis = 0; axis < 3; ++axis)
-    if (cells.lo[axis] < box.lo[axis] || cells.hi[axis] > box.hi[axis])
-      return sphere_range_volume(lattice, sphere, box);
-  return 4 * std::numbers::pi / 3 * (sphere.radius * sphere.radius * sphere.radius);
+    inside = inside && cells.lo[axis] >= box.lo[axis] && cells.hi[axis] <= box.hi[axis];
+  if (inside) return 4 * std::numbers::pi / 3 * (sphere.radius * sphere.radius * sphere.radius);
+  if (!touches(lattice, sphere, box)) return {};
+  return sphere_range_volume(lattice, sphere, box);
 }
 
 Inside spheres_inside(const SpheresView& spheres, const FieldRequest& request, bool each) {
@@ -71,9 +73,9 @@ Inside spheres_inside(const SpheresView& spheres, const FieldRequest& request, b
       for (m[0] = images.lo[0]; m[0] <= images.hi[0]; ++m[0])
         for (m[1] = images.lo[1]; m[1] <= images.hi[1]; ++m[1])
           for (m[2] = images.lo[2]; m[2] <= images.hi[2]; ++m[2]) {
-            const PlacedSphere image = moved(sphere, lattice, m);
-            volume += clipped_volume(lattice, image);
-            touching = touching || touches(lattice, image, all_cells(lattice));
+            const std::optional<double> part = clipped_volume(lattice, moved(sphere, lattice, m));
+            volume += part.value_or(0);
+            touching = touching || part.has_value();
           }
       if (each) all.each[s] = volume;
       partial[b].particles += touching;

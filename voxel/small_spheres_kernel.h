@@ -195,18 +195,20 @@ HWY_INLINE void fill_wedges(const Planes<T>& x, int nx, const Planes<T>& y, int 
   }
 }
 
-/// One sphere's planes, wedges and corners.
+/// One sphere's planes, wedges and steps.
 template <class T>
 struct Ball {
   Planes<T> x, y, z;
-  Wedges<T> wedges[3];                                // xy, yz, xz
-  HWY_ALIGN T corner[kPlanes][kPlanes][2 * kPlanes];  // F; rows have room to be read one ahead
+  Wedges<T> wedges[3];                                  // xy, yz, xz
+  HWY_ALIGN T step[kPlanes][kSmallCells][2 * kPlanes];  // of F from one plane of y to the next; rows have
+                                                        // room to be read one ahead
   int nx, ny, nz;
 };
 
 template <class T>
-HWY_INLINE void fill_corners(Ball<T>& ball) {
+HWY_INLINE void fill_steps(Ball<T>& ball) {
   const Tag<T> d;
+  HWY_ALIGN T corner[kPlanes];  // F along the row before
   const Planes<T>&x = ball.x, &y = ball.y, &z = ball.z;
   for (int i = 0; i <= ball.nx; ++i) {
     for (int j = 0; j <= ball.ny; ++j) {
@@ -221,7 +223,8 @@ HWY_INLINE void fill_corners(Ball<T>& ball) {
         const auto within = hn::Le(hn::Add(square, hn::Load(d, z.square + k)), hn::Set(d, T(1)));
         const Vec<T> f = hn::IfThenElse(within, hn::Mul(area, hn::Load(d, z.u + k)),
                                         hn::Mul(hn::Mul(sign, hn::Load(d, z.sign + k)), beyond));
-        hn::Store(f, d, ball.corner[i][j] + k);
+        if (j > 0) hn::Store(hn::Sub(f, hn::Load(d, corner + k)), d, ball.step[i][j - 1] + k);
+        hn::Store(f, d, corner + k);
       });
     }
   }
@@ -235,11 +238,8 @@ HWY_INLINE void row_shares(const Ball<T>& ball, int i, int j, T scale, T* share)
   const Vec<T> zero = hn::Zero(d), one = hn::Set(d, T(1));
   for_row<T>([&](int k) {
     const auto face = [&](int ahead) {
-      const Vec<T> upper = hn::Sub(hn::LoadU(d, ball.corner[i + 1][j + 1] + k + ahead),
-                                   hn::LoadU(d, ball.corner[i + 1][j] + k + ahead));
-      const Vec<T> lower = hn::Sub(hn::LoadU(d, ball.corner[i][j + 1] + k + ahead),
-                                   hn::LoadU(d, ball.corner[i][j] + k + ahead));
-      return hn::Sub(upper, lower);
+      return hn::Sub(hn::LoadU(d, ball.step[i + 1][j] + k + ahead),
+                     hn::LoadU(d, ball.step[i][j] + k + ahead));
     };
     const Vec<T> volume = hn::Mul(hn::Sub(face(1), face(0)), hn::Set(d, scale));
     const auto reached = hn::Lt(hn::Add(hn::Set(d, near_xy), hn::Load(d, ball.z.nearest + k)), one);
@@ -310,7 +310,7 @@ HWY_INLINE void set_ball(const Lattice& lattice, const SmallSphere& small, Ball<
   ball.nx = static_cast<int>(bounding.size(0)), ball.ny = static_cast<int>(bounding.size(1));
   ball.nz = static_cast<int>(bounding.size(2));
   fill_wedges(ball.x, ball.nx, ball.y, ball.ny, ball.z, ball.wedges);
-  fill_corners(ball);
+  fill_steps(ball);
 }
 
 template <class T>
