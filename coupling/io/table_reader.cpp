@@ -109,6 +109,7 @@ class TableReader : public ParticleReader {
       : lines_(path), options_(std::move(options)) {}
 
   std::string kind() const override { return yade_ ? "YADE text" : "CSV"; }
+  std::int64_t frames() const override { return 1; }
   bool next(ParticleFrame& frame) override;
 
  private:

@@ -13,6 +13,7 @@
 #include "coupling/io/particle_reader.h"
 #include "coupling/io/trajectory.h"
 #include "tests/apps/command_test.h"
+#include "tests/coupling/io/edem_file.h"
 #include "tests/coupling/io/vti_decoding.h"
 
 namespace interstice::testing {
@@ -76,6 +77,18 @@ TEST_F(Voids, TheSolidVolumeInFilesOfOtherProgramsIsThatOfTheirGrains) {
   EXPECT_EQ(outcome.err.find("positions are written to"), std::string::npos) << outcome.err;
   EXPECT_NE(outcome.err.find("lammps-triclinic.dump: the box is tilted and periodic along y"),
             std::string::npos);
+}
+
+// Both end in .h5: results of EDEM, and our own checkpoints.
+TEST_F(Voids, InfoKnowsEdemFilesFromCheckpoints) {
+  io::testing::EdemFile(folder_ / "edem.h5").fill(true, 1);
+  const Outcome edem = interstice("info " + at("edem.h5") + " --json");
+  ASSERT_EQ(edem.status, 0) << edem.err;
+  EXPECT_EQ(Json::parse(edem.out)["particles_last_frame"], 3);
+  std::ofstream(folder_ / "none.h5") << "no HDF5";
+  const Outcome none = interstice("info " + at("none.h5"));
+  EXPECT_NE(none.status, 0);
+  EXPECT_NE(none.err.find("none.h5"), std::string::npos) << none.err;
 }
 
 TEST_F(Voids, SingleIsSaidAndKeepsTheVolume) {
