@@ -78,8 +78,7 @@ constexpr double units_of_width = 1100, pixels_per_unit = 1600 / units_of_width,
 
 // gnuplot keeps numbers away from tics by letters of the unscaled font, in a PDF twice as large as they are
 // drawn.
-constexpr const char* pdf_tics =
-    "if (kind eq 'pdf') set xtics offset 0,0.5; set ytics offset 0.6,0; set cbtics offset -0.7,0\n";
+constexpr const char* pdf_tics = "; set xtics offset 0,0.5; set ytics offset 0.6,0; set cbtics offset -0.7,0";
 
 // Fonts and lines scale with the canvas, so that all kinds look alike.
 std::string terminals(const Drawing& drawing) {
@@ -91,10 +90,9 @@ std::string terminals(const Drawing& drawing) {
       "{2:.4f} "
       "linewidth {3:.3f} pointscale {2:.3f} background '#ffffff'\n"
       "if (kind eq 'pdf') set terminal pdfcairo noenhanced size {4:.2f}cm,{5:.2f}cm font 'DejaVu Sans,15' "
-      "fontscale {6:.4f} linewidth {7:.3f} pointscale {7:.3f} background '#ffffff'\n"
+      "fontscale {6:.4f} linewidth {7:.3f} pointscale {7:.3f} background '#ffffff'{9}\n"
       "if (kind eq 'svg') set terminal svg noenhanced size {0},{1} dynamic font 'DejaVu Sans,15' "
-      "fontscale {8:.4f} linewidth {3:.3f} background '#ffffff'\n"
-      "{9}",
+      "fontscale {8:.4f} linewidth {3:.3f} background '#ffffff'\n",
       width, height, 0.75 * letters * pixels_per_unit, 1.3 * pixels_per_unit, drawing.width * cm_per_unit,
       drawing.height * cm_per_unit, letters * points_per_unit, 2 * points_per_unit, letters * pixels_per_unit,
       pdf_tics);

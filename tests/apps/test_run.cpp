@@ -198,9 +198,10 @@ TEST_F(Run, AFullDiskIsAFailureWithOneLine) {
 
 // The same in the thread that writes fields: the run stops with the reason, and no half file has a name.
 TEST_F(Run, AFullDiskUnderTheFieldsIsAFailureWithOneLine) {
+  constexpr std::uintmax_t most = 300000;  // the .vdb and the .vti of the first field would be larger
   const pid_t child = ::fork();
   if (child == 0) {
-    const rlimit limit{300000, 300000};
+    const rlimit limit{most, most};
     ::setrlimit(RLIMIT_FSIZE, &limit);
     ::signal(SIGXFSZ, SIG_IGN);
     ::_exit(call("run " + kScene + " -o " + at("run") + kSmall + "--set 'fields.bed.voxel=\"5 um\"'"));
@@ -212,7 +213,7 @@ TEST_F(Run, AFullDiskUnderTheFieldsIsAFailureWithOneLine) {
   EXPECT_NE(err.find("cannot write " + at("run") + "/fields/bed_000000"), std::string::npos) << err;
   for (const auto& file : fs::directory_iterator(at("run") + "/fields")) {
     const std::string name = file.path().filename().string();
-    EXPECT_TRUE(name[0] == '.' || file.path().extension() == ".csv" || file.file_size() < 300000) << name;
+    EXPECT_TRUE(name[0] == '.' || file.is_directory() || file.file_size() < most) << name;
   }
 }
 
