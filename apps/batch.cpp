@@ -33,7 +33,7 @@ std::atomic<bool> stop_flag{false};
 /// All options that change what is computed or written, as typed: a batch goes on under the same ones only.
 Json options_of(const CLI::App& command) {
   static const std::set<std::string> others{"inputs",    "--output", "--help", "--overwrite",
-                                            "--threads", "--quiet",  "--json"};
+                                            "--threads", "--quiet",  "--json", "--memory"};
   Json options = Json::object();
   for (const CLI::Option* option : command.get_options()) {
     if (option->count() > 0 && others.count(option->get_name()) == 0)
@@ -42,28 +42,13 @@ Json options_of(const CLI::App& command) {
   return options;
 }
 
-/// Memory that a frame takes while it is worked on [bytes], above that of its particles: grids near the
-/// grains, averages over the whole box, the image for ParaView.
-double bytes_for(const io::ParticleFrame& frame, const io::FieldFilesRequest& request) {
-  const auto& computed = request.computed;
-  const double cells = static_cast<double>(computed.lattice.cells());
-  double touched = 0;
-  for (const double r : frame.radius) touched += std::pow(2 * r / computed.lattice.h.x + 9, 3);
-  const bool averaged = computed.average_length > 0;
-  double bytes = 24 * std::min(touched, cells) + 400 * static_cast<double>(frame.size());
-  if (averaged) bytes += std::min(32 * cells, 8.6e9);
-  if (request.vti && cells <= static_cast<double>(request.vti_most_cells))
-    bytes += (averaged ? 24 : 12) * cells;
-  return bytes;
-}
-
 class Batch {
  public:
   Batch(const VoidsOptions& options, const ComputeOptions& compute, studies::BatchFolder& folder)
       : options_(options),
         compute_(compute),
         folder_(folder),
-        budget_(0.6 * stream::available_memory()),
+        budget_(options.memory > 0 ? options.memory : 0.6 * stream::available_memory()),
         bar_(compute.quiet) {}
 
   /// Returns the exit status.
@@ -155,7 +140,8 @@ class Batch {
     try {
       if (!item.error.empty()) throw InputError(item.error);
       FramePlan plan = plan_frame(item.frame, options_, place_of(path, item.number));
-      const stream::MemoryBudget::Share share(budget_, bytes_for(item.frame, plan.request));
+      check_memory(plan);
+      const stream::MemoryBudget::Share share(budget_, plan.memory);
       compute(item, std::move(plan));
     } catch (const std::bad_alloc&) {
       fail({item.input, item.number, place_of(path, item.number) + ": out of memory; use a larger voxel"});
@@ -165,6 +151,14 @@ class Batch {
       fail({item.input, item.number, error.what()});
       if (++unwritten_ >= most_unwritten) queue.stop();  // most likely no frame can be written any more
     }
+  }
+
+  // Frames wait for each other's memory; one that never has room is refused.
+  void check_memory(const FramePlan& plan) const {
+    if (options_.memory == 0 || plan.memory <= options_.memory) return;
+    throw InputError(fmt::format(
+        "the field may need {:.3g} MB; --memory allows {:.3g} MB; allow more, or use a larger --voxel",
+        1e-6 * plan.memory, 1e-6 * options_.memory));
   }
 
   void compute(stream::QueuedFrame& item, FramePlan plan) {
@@ -178,10 +172,20 @@ class Batch {
     const std::lock_guard guard(mutex_);
     if (!output.missing_figures.empty() && !figures_warned_) bar_.line("warning: " + output.missing_figures);
     figures_warned_ = figures_warned_ || !output.missing_figures.empty();
+    if (!coarse_warned_.count(item.input)) warn_of_resolution(item);
     if (!periods.empty() && warned_.insert(periods).second) bar_.line("warning: " + periods);
     ++computed_;
     unwritten_ = 0;
     show();
+  }
+
+  // Once an input; the mutex is held.
+  void warn_of_resolution(const stream::QueuedFrame& item) {
+    const auto line =
+        resolution_warning(options_.inputs[item.input].string(), item.position_resolution, options_.voxel);
+    if (line.empty()) return;
+    coarse_warned_.insert(item.input);
+    bar_.line("warning: " + line);
   }
 
   void fail(studies::BatchFailure failure) {
@@ -267,6 +271,7 @@ class Batch {
   std::atomic<int> unwritten_{0};  // frames in a row that could not be written
   bool figures_warned_ = false;
   std::set<std::string> warned_;
+  std::set<std::size_t> coarse_warned_;  // inputs whose coarse positions were warned of
   Clock::time_point begin_;
   std::mutex mutex_;
 };
@@ -319,6 +324,8 @@ void add_batch(CLI::App& root) {
   CLI::App* c =
       root.add_subcommand("batch", "void fraction from many particle files and frames, on all cores");
   add_voids_flags(*c, *words);
+  c->add_option("--memory", words->memory,
+                "what fields may take together, such as 4GB (default: 60 % of what is free)");
   c->callback([words, c] { batch(*words, *c); });
 }
 

@@ -181,6 +181,7 @@ Json bench_field(const Bed& bed, const BenchArguments& a) {
   }
   voxel::FieldRequest request;
   request.lattice = voxel::cubic_lattice({{0, 0, 0}, bed.size}, a.voxel);
+  if (a.compute.precision == "mixed") request.precision = voxel::Precision::mixed;
   std::vector<double> rates;
   double conservation = 0;
   for (int b = 0; b < a.blocks; ++b) {

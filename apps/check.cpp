@@ -12,6 +12,7 @@
 #include "coupling/scene/sizes.h"
 #include "coupling/stream/build_model.h"
 #include "coupling/stream/contact_report.h"
+#include "coupling/stream/field_memory.h"
 #include "coupling/stream/schedule.h"
 #include "coupling/stream/step_choice.h"
 
@@ -41,13 +42,7 @@ Estimate estimate(const scene::Scene& scene, double step) {
   }
   for (const scene::Phase& p : scene.phases) e.simulated_at_most += p.duration.value_or(p.at_most);
   e.steps_at_most = static_cast<double>(stream::steps_in(e.simulated_at_most, step));
-  double cells = 0;
-  for (const scene::Field& f : scene.fields) {
-    const Vec3d s = f.box.size();
-    cells += std::ceil(s.x / f.voxel) * std::ceil(s.y / f.voxel) * std::ceil(s.z / f.voxel);
-  }
-  e.memory =
-      e.grains * (kBytesPerGrain + 2 * 150) + cells * 40;  // two buffers of columns; grids and averages
+  e.memory = e.grains * kBytesPerGrain + stream::fields_memory(scene);
   e.seconds =
       e.grains * e.steps_at_most / (kParticleStepsPerSecondPerCore * tbb::info::default_concurrency());
   return e;

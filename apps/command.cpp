@@ -31,7 +31,8 @@ bool is_ours(const std::filesystem::path& entry) {
 void add_compute_options(CLI::App& command, ComputeOptions& o) {
   command.add_option("--backend", o.backend,
                      "auto, cpu, cuda or reference (serial, neighbours by brute force)");
-  command.add_option("--precision", o.precision, "double, or mixed (positions double, forces single)");
+  command.add_option("--precision", o.precision,
+                     "double, or mixed (positions double, forces and shares of voxels single)");
   command.add_option("--isa", o.isa, "instruction set: auto, or the one that this binary was built for");
   command.add_option("--threads", o.threads, "number of threads (default: all cores)");
   command.add_flag("--json", o.json, "print the result as one JSON object");

@@ -10,6 +10,7 @@
 
 #include "apps/command.h"
 #include "base/error.h"
+#include "coupling/io/edem_hdf5_reader.h"
 #include "coupling/io/particle_reader.h"
 #include "coupling/io/state_file.h"
 #include "coupling/scene/read_scene.h"
@@ -93,10 +94,10 @@ Json checkpoint_info(const std::string& path) {
 void info(const std::string& path, bool json) {
   if (!std::filesystem::exists(path)) throw InputError(path + ": no such file; check the name");
   const std::string extension = std::filesystem::path(path).extension().string();
-  const Json j = extension == ".vdb"    ? vdb_info(path)
-                 : extension == ".toml" ? scene_info(path)
-                 : extension == ".h5"   ? checkpoint_info(path)
-                                        : particles_info(path);
+  const Json j = extension == ".vdb"                                     ? vdb_info(path)
+                 : extension == ".toml"                                  ? scene_info(path)
+                 : extension == ".h5" && !io::looks_like_edem_hdf5(path) ? checkpoint_info(path)
+                                                                         : particles_info(path);
   if (json) {
     fmt::print("{}\n", j.dump(2));
     return;

@@ -16,6 +16,8 @@
 #include "coupling/scene/units.h"
 #include "coupling/stream/build_model.h"
 #include "coupling/stream/contact_report.h"
+#include "coupling/stream/field_memory.h"
+#include "coupling/stream/memory_budget.h"
 #include "coupling/stream/run.h"
 #include "coupling/stream/run_report.h"
 
@@ -63,6 +65,7 @@ void run(const RunArguments& a) {
   const dem::Model model = stream::build_model(scene);
   const stream::StepChoice choice = stream::choose_step(scene, model);  // refuse before anything is written
   stream::report_contacts(scene, model, choice.speed, choice.step);
+  stream::check_fields_memory(scene, stream::available_memory());
   if (a.resume) {
     if (!std::filesystem::exists(std::filesystem::path(a.folder) / "checkpoint.h5")) {
       throw InputError(a.folder +

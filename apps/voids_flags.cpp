@@ -3,8 +3,10 @@
 namespace interstice::apps {
 
 void add_voids_flags(CLI::App& c, VoidsWords& words) {
-  c.add_option("inputs", words.inputs,
-               "particle files: trajectory.h5part, LIGGGHTS/LAMMPS text dumps, CSV, YADE text; also .gz")
+  c.add_option(
+       "inputs", words.inputs,
+       "particle files: trajectory.h5part, LIGGGHTS/LAMMPS text dumps, VTK (legacy, .vtp, .vtu), CSV, "
+       "YADE text, MercuryDPM .data, EDEM CSV and .h5; all but HDF5 also .gz (docs/FILES.md)")
       ->required();
   c.add_option("-o,--output", words.output, "folder for the results")->required();
   c.add_option("--voxel", words.voxel, "edge of a voxel, such as 20um")->required();

@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "coupling/scene/format_quantity.h"
+#include "coupling/stream/field_memory.h"
 #include "voxel/methods.h"
 #include "voxel/scales.h"
 
@@ -58,25 +59,16 @@ void check_periods(const Box& box, const VoidsOptions& options, const std::strin
   }
 }
 
-// Grids hold the voxels near grains only; a wrong unit of length makes these many more than a machine has
-// room for.
-void check_memory(const io::ParticleFrame& frame, const voxel::FieldRequest& request,
-                  const std::string& where) {
-  const double h = request.lattice.h.x;
-  double touched = 0;
-  for (const double r : frame.radius)  // a grain's box in leaves of 8
-    touched += std::pow(2 * std::max(r, request.kernel_length) / h + 9, 3);
-  const auto& n = request.lattice.n;
-  const double cells = static_cast<double>(n[0]) * static_cast<double>(n[1]) * static_cast<double>(n[2]);
-  const double bytes = 12 * std::min(touched, cells) * (request.average_length > 0 ? 2 : 1);
+// A wrong unit of length makes fields larger than a machine has room for.
+void check_memory(const FramePlan& plan, const std::string& where) {
   const double memory =
       static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGE_SIZE));
-  if (bytes > memory) {
-    wrong(where, fmt::format(
-                     "the field would need some {:.3g} GB ({} x {} x {} voxels); this machine has {:.3g} GB; "
-                     "take a larger --voxel or a smaller --box, and check the unit of length (--length-unit)",
-                     1e-9 * bytes, n[0], n[1], n[2], 1e-9 * memory));
-  }
+  if (plan.memory <= memory) return;
+  const auto& n = plan.request.computed.lattice.n;
+  wrong(where,
+        fmt::format("the field would need some {:.3g} GB ({} x {} x {} voxels); this machine has {:.3g} GB; "
+                    "take a larger --voxel or a smaller --box, and check the unit of length (--length-unit)",
+                    1e-9 * plan.memory, n[0], n[1], n[2], 1e-9 * memory));
 }
 
 void check_method_here(const voxel::FieldRequest& request, const VoidsOptions& options,
@@ -124,10 +116,13 @@ FramePlan plan_frame(const io::ParticleFrame& frame, const VoidsOptions& options
   }
   computed.periodic = options.periodic;
   apply(options.method, computed);
+  computed.precision = options.precision;
   computed.average_length = options.average;
   computed.density = options.density;
   check_method_here(computed, options, where);
-  check_memory(frame, computed, where);
+  plan.memory = stream::field_memory(request, stream::cells_reached(frame.radius, computed),
+                                     static_cast<double>(frame.size()));
+  check_memory(plan, where);
   request.scales = options.method.scales;
   check_places(computed.lattice, options, where);
   request.slices = options.slices;

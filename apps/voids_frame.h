@@ -14,6 +14,7 @@ namespace interstice::apps {
 struct FramePlan {
   io::FieldFilesRequest request;  // computed, box, slices, lines and layers filled
   voxel::Solids solids;
+  double memory = 0;  // [bytes] that the field takes at most, above the particles (field_memory.h)
 };
 
 /// Throws InputError (led by `where`) when the frame and the options do not go together: a slice outside, a

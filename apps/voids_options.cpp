@@ -109,6 +109,21 @@ void read_contours(const std::string& text, VoidsOptions& options) {
   }
 }
 
+// "4GB", "500 MB", "2GiB"
+void read_memory(const std::string& text, VoidsOptions& options) {
+  const auto unit_at = text.find_first_not_of("0123456789.");
+  const std::string unit(scene::trim(std::string_view(text).substr(std::min(unit_at, text.size()))));
+  const std::map<std::string, double> units{{"MB", 1e6}, {"GB", 1e9}, {"MiB", 0x1p20}, {"GiB", 0x1p30}};
+  double value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + std::min(unit_at, text.size()), value);
+  if (error != std::errc() || units.count(unit) == 0 || !(value > 0)) {
+    throw InputError(
+        "--memory: " + text +
+        ": no amount of memory; a number above 0 with MB, GB, MiB or GiB; write for example 4GB");
+  }
+  options.memory = value * units.at(unit);
+}
+
 void read_inputs(const VoidsWords& words, VoidsOptions& options, std::vector<std::string>& errors) {
   std::map<std::string, std::string> by_stem;
   for (const auto& input : words.inputs) {
@@ -153,6 +168,7 @@ VoidsOptions read_voids_options(const VoidsWords& words) {
     check_together(options.method);
   });
   options.method.scales = words.scales;
+  if (words.compute.precision == "mixed") options.precision = voxel::Precision::mixed;
   attempt(!words.average.empty(),
           [&] { options.average = positive(words.average, Dimension::length, "--average"); });
   for (const auto& slice : words.slices) {
@@ -182,6 +198,7 @@ VoidsOptions read_voids_options(const VoidsWords& words) {
   });
   attempt(true, [&] { read_frame(words.frame, options); });
   attempt(!words.columns.empty(), [&] { read_columns(words.columns, options); });
+  attempt(!words.memory.empty(), [&] { read_memory(words.memory, options); });
   attempt(true, [&] { options.formats = figures::parse_formats(words.figures, "--figures"); });
   attempt(!words.contours.empty(), [&] { read_contours(words.contours, options); });
   if (!words.walls.empty()) {

@@ -21,7 +21,8 @@ namespace interstice::apps {
 struct VoidsWords {
   std::vector<std::string> inputs;
   std::string output, voxel, box, periodic, method = "exact", overlap = "sum", average, layers, density,
-                                            length_unit, frame = "last", columns, figures = "png", contours;
+                                            length_unit, frame = "last", columns, figures = "png", contours,
+                                            memory;
   std::vector<std::string> walls, slices, lines;
   bool overwrite = false, no_figures = false, scales = false;
   ComputeOptions compute;
@@ -37,6 +38,7 @@ struct VoidsOptions {
   std::optional<Box> box;  // [m]
   std::array<bool, 3> periodic{false, false, false};
   MethodOptions method;
+  voxel::Precision precision = voxel::Precision::real64;
   double average = 0;  // [m]
   std::vector<scene::Slice> slices;
   std::vector<scene::Line> lines;
@@ -50,6 +52,7 @@ struct VoidsOptions {
   std::int64_t frame = 0;  // for Frames::one
   io::ReaderOptions reader;
   bool overwrite = false, figures = true;
+  double memory = 0;  // [bytes] that the fields of a batch may take together; 0: by what is free
   figures::Formats formats;
   std::vector<double> contours{0.4, 0.5, 0.6};  // of the averaged void fraction, on slices
 };

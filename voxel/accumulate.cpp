@@ -66,24 +66,20 @@ std::vector<Task> merge(const Bins& bins, const Walled& walls) {
 
 /// Sums over the cells of a region, kept from region to region by each thread.
 struct Sums {
-  CellRows solid;
-  CellRows mass;                   // [kg/m^3], only where asked for
+  CellRows rows;
   std::vector<SmallSphere> small;  // waiting to be added, in order
-  std::vector<double> densities;   // of those
 };
 
-void add_waiting(const Lattice& lattice, bool mass, Sums& sums) {
-  if (sums.small.empty()) return;
-  add_small_spheres(lattice, sums.small.data(), sums.small.size(), nullptr, sums.solid);
-  if (mass)
-    add_small_spheres(lattice, sums.small.data(), sums.small.size(), sums.densities.data(), sums.mass);
+void add_waiting(const Accumulation& what, Sums& sums) {
+  add_small_spheres(what.request.lattice, sums.small.data(), sums.small.size(), what.request.precision,
+                    what.channels, sums.rows);
   sums.small.clear();
-  sums.densities.clear();
 }
 
 /// Any method, any size: leaf by leaf. `fill(cells, fractions)` gives the shares of some cells.
 template <class Fill>
-void add_by_blocks(const CellRange& touched, const double* density, Sums& sums, const Fill& fill) {
+void add_by_blocks(const CellRange& touched, std::size_t sphere, const Channels& channels, CellRows& rows,
+                   const Fill& fill) {
   double fractions[kBlockCells];
   std::array<std::int64_t, 3> at;
   const auto from = [](std::int64_t cell) { return cell / kBlock * kBlock; };
@@ -91,35 +87,27 @@ void add_by_blocks(const CellRange& touched, const double* density, Sums& sums, 
     for (at[1] = from(touched.lo[1]); at[1] < touched.hi[1]; at[1] += kBlock)
       for (at[2] = from(touched.lo[2]); at[2] < touched.hi[2]; at[2] += kBlock) {
         const CellRange cells = intersection(touched, {at, {at[0] + kBlock, at[1] + kBlock, at[2] + kBlock}});
-        if (!fill(cells, fractions)) continue;
-        const double* next = fractions;
-        const auto nz = cells.size(2);
-        for (std::int64_t i = cells.lo[0]; i < cells.hi[0]; ++i)
-          for (std::int64_t j = cells.lo[1]; j < cells.hi[1]; ++j, next += nz) {
-            double* solid = sums.solid.row(i, j) + (cells.lo[2] - sums.solid.cells().lo[2]);
-            for (std::int64_t k = 0; k < nz; ++k) solid[k] += next[k];
-            if (!density) continue;
-            double* mass = sums.mass.row(i, j) + (cells.lo[2] - sums.mass.cells().lo[2]);
-            for (std::int64_t k = 0; k < nz; ++k) mass[k] += *density * next[k];
-          }
+        if (fill(cells, fractions)) add_shares(fractions, cells, sphere, channels, rows);
       }
 }
 
-void add_sphere(const FieldRequest& request, const PlacedSphere& sphere, const CellRange& touched,
-                const double* density, Sums& sums) {
-  add_by_blocks(touched, density, sums, [&](const CellRange& cells, double* fractions) {
-    if (request.method != Method::centre && !touches(request.lattice, sphere, cells)) return false;
-    method_fractions(request, sphere, cells, fractions);
-    return true;
-  });
-}
-
-void add_kernel(const Lattice& lattice, const PlacedSphere& sphere, const KernelSpread& kernel, double scale,
-                const CellRange& cells, const double* density, Sums& sums) {
-  const CellRange touched = intersection(kernel_cells(lattice, sphere, kernel.length), cells);
-  if (touched.empty()) return;
-  add_by_blocks(touched, density, sums, [&](const CellRange& block, double* fractions) {
-    kernel_fractions(lattice, sphere, kernel, scale, block, fractions);
+void add_one(const Accumulation& what, std::size_t index, const PlacedSphere& sphere, const CellRange& cells,
+             CellRows& rows) {
+  const FieldRequest& request = what.request;
+  const double scale = what.kernel ? what.kernel->scale[index] : 0;
+  if (scale > 0) {
+    const CellRange reached = kernel_cells(request.lattice, sphere, what.kernel->length);
+    add_by_blocks(intersection(reached, cells), index, what.channels, rows,
+                  [&](const CellRange& block, double* fractions) {
+                    kernel_fractions(request.lattice, sphere, *what.kernel, scale, block, fractions);
+                    return true;
+                  });
+    return;
+  }
+  const CellRange touched = intersection(bounding_cells(request.lattice, sphere), cells);
+  add_by_blocks(touched, index, what.channels, rows, [&](const CellRange& block, double* fractions) {
+    if (request.method != Method::centre && !touches(request.lattice, sphere, block)) return false;
+    method_fractions(request, sphere, block, fractions);
     return true;
   });
 }
@@ -129,24 +117,17 @@ void add_spheres(const Accumulation& what, std::size_t bin, const CellRange& cel
   for (std::size_t e = what.bins.first[bin]; e < what.bins.first[bin + 1]; ++e) {
     const BinEntry& entry = what.bins.entries[e];
     const PlacedSphere sphere = moved(place(lattice, what.spheres, entry.sphere), lattice, entry.image);
-    const CellRange bounding = bounding_cells(lattice, sphere);
-    const double density = !what.mass             ? 0
-                           : what.spheres.density ? what.spheres.density[entry.sphere]
-                                                  : what.request.density;
-    if (what.request.method == Method::exact && is_small(bounding)) {
-      sums.small.push_back({sphere, bounding});
-      if (what.mass) sums.densities.push_back(density);
-      continue;
+    if (what.request.method == Method::exact) {
+      const CellRange bounding = bounding_cells(lattice, sphere);
+      if (is_small(bounding)) {
+        sums.small.push_back({sphere, bounding, entry.sphere});
+        continue;
+      }
     }
-    add_waiting(lattice, what.mass, sums);  // spheres are added in ascending order
-    const double* weight = what.mass ? &density : nullptr;
-    const double scale = what.kernel ? what.kernel->scale[entry.sphere] : 0;
-    if (scale > 0)
-      add_kernel(lattice, sphere, *what.kernel, scale, cells, weight, sums);
-    else
-      add_sphere(what.request, sphere, intersection(bounding, cells), weight, sums);
+    add_waiting(what, sums);  // spheres are added in ascending order
+    add_one(what, entry.sphere, sphere, cells, sums.rows);
   }
-  add_waiting(lattice, what.mass, sums);
+  add_waiting(what, sums);
 }
 
 std::unique_ptr<Leaf> new_leaf(const CellRange& cells, float background) {
@@ -168,21 +149,22 @@ void set_active(Leaf& leaf, const std::uint8_t (&rows)[kBlock * kBlock]) {
 
 /// The leaves of one block in the making.
 struct Leaves {
-  float *solid, *empty, *mass = nullptr, *available = nullptr;
+  float *solid, *empty, *available = nullptr;
+  double least_void = 0;  // voxels with less count as negative
   std::uint8_t solid_on[kBlock * kBlock] = {}, any_on[kBlock * kBlock] = {}, wall_on[kBlock * kBlock] = {};
 };
 
 /// One row of eight cells (fewer at the lattice's end): rounds it to the leaves and adds it to the sums.
 /// `wall` is null where there is none.
-void finish_row(const double* solid, const double* mass, const double* wall, int row, int cells,
-                Leaves& leaves, BlockResult& result) {
+void finish_row(const double* solid, const double* wall, int row, int cells, Leaves& leaves,
+                BlockResult& result) {
   const int at = row * kBlock;
   std::uint8_t solid_on = 0, any_on = 0, wall_on = 0;
   for (int k = 0; k < cells; ++k) {
     const double share = wall ? wall[k] : 0, available = 1 - share, empty = available - solid[k];
     result.void_min = std::min(result.void_min, empty);
     result.void_max = std::max(result.void_max, empty);
-    result.negative += empty < -1e-12;
+    result.negative += empty < leaves.least_void;
     result.solid += solid[k];
     result.wall += share;
     const auto rounded = static_cast<float>(solid[k]);
@@ -193,52 +175,87 @@ void finish_row(const double* solid, const double* mass, const double* wall, int
     wall_on |= static_cast<std::uint8_t>(has_wall << k);
     leaves.solid[at + k] = rounded;
     leaves.empty[at + k] = static_cast<float>(empty);
-    if (mass) leaves.mass[at + k] = static_cast<float>(mass[k]);
     if (wall) leaves.available[at + k] = static_cast<float>(available);
   }
   leaves.solid_on[row] = solid_on, leaves.any_on[row] = any_on, leaves.wall_on[row] = wall_on;
   result.active += std::popcount(any_on);
 }
 
-void keep(const double* solid, const double* wall, std::int64_t i, std::int64_t j, const CellRange& cells,
-          DenseShares& dense) {
-  const CellRange row{{i, j, cells.lo[2]}, {i + 1, j + 1, cells.hi[2]}};
-  const CellRange inside = intersection(row, dense.range);  // walls may reach beyond what averages look at
+/// Calls visit(row, i, j) for the rows of a block's cells, numbered as in a leaf.
+template <class Visit>
+void for_rows(const CellRange& cells, const Visit& visit) {
+  for (std::int64_t i = cells.lo[0]; i < cells.hi[0]; ++i)
+    for (std::int64_t j = cells.lo[1]; j < cells.hi[1]; ++j)
+      visit((i - cells.lo[0]) * kBlock + (j - cells.lo[1]), i, j);
+}
+
+/// Where the sums of row (i, j) begin that belong to a block's cells.
+const double* sums_of_row(const CellRows& rows, const CellRange& cells, std::int64_t i, std::int64_t j) {
+  return rows.row(i, j) + (cells.lo[2] - rows.cells().lo[2]);
+}
+
+void keep(const Channels& channels, const double* sums, std::int64_t plane, const double* wall,
+          const CellRange& row, DenseParts& dense) {
+  DenseShares& shares = dense.shares;
+  const CellRange inside = intersection(row, shares.range);  // walls may reach beyond what averages look at
   for (std::int64_t k = inside.lo[2]; k < inside.hi[2] && !inside.empty(); ++k) {
-    const std::size_t at = dense.index(i, j, k);
-    dense.solid[at] = solid[k - cells.lo[2]];
-    if (!dense.available.empty() && wall) dense.available[at] = 1 - wall[k - cells.lo[2]];
+    const std::size_t at = shares.index(row.lo[0], row.lo[1], k);
+    const std::int64_t in_row = k - row.lo[2];
+    shares.solid[at] = sums[in_row];
+    if (!shares.available.empty() && wall) shares.available[at] = 1 - wall[in_row];
+    for (std::size_t o = 0; o < dense.parts.size(); ++o)
+      if (!dense.parts[o].empty())
+        dense.parts[o][at] = windowed_part_of(channels.outputs[o], channels, sums + in_row, plane);
   }
 }
 
+/// Rounds one quantity of a block's cells to its leaf, with values where there is solid; a mask has them
+/// where it is 1. Returns the sum of its parts.
+double finish_quantity(const Output& output, const CellRange& cells, const CellRows& rows, Leaf& leaf) {
+  float* values = leaf.buffer().data();
+  std::uint8_t on[kBlock * kBlock] = {};
+  double sum = 0;
+  for_rows(cells, [&](std::int64_t row, std::int64_t i, std::int64_t j) {
+    const double* sums = sums_of_row(rows, cells, i, j);
+    for (std::int64_t k = 0; k < cells.size(2); ++k) {
+      if (sums[k] == 0) continue;
+      const double part = part_of(output, sums + k, rows.plane());
+      if (output.reading == Reading::mask && part == 0) continue;
+      sum += part;
+      on[row] = static_cast<std::uint8_t>(on[row] | 1U << k);
+      values[row * kBlock + k] = static_cast<float>(output.quantity.per_solid ? part / sums[k] : part);
+    }
+  });
+  set_active(leaf, on);
+  return sum;
+}
+
 /// Rounds a block's cells to leaves and adds up what the field's sums need, in double.
-void finish_block(const Accumulation& what, const CellRange& cells, const double* walls, const Sums& sums,
+void finish_block(const Accumulation& what, const CellRange& cells, const double* walls, const CellRows& rows,
                   BlockResult& result) {
-  const bool mass = what.mass;
   result.solid_leaf = new_leaf(cells, 0.0f);
   result.void_leaf = new_leaf(cells, 1.0f);
-  if (mass) result.mass_leaf = new_leaf(cells, 0.0f);
   if (walls) result.available_leaf = new_leaf(cells, 1.0f);
   Leaves leaves;
+  leaves.least_void = negative_below(what.request.precision);
   leaves.solid = result.solid_leaf->buffer().data();
   leaves.empty = result.void_leaf->buffer().data();
-  if (mass) leaves.mass = result.mass_leaf->buffer().data();
   if (walls) leaves.available = result.available_leaf->buffer().data();
   result.void_min = std::numeric_limits<double>::infinity(), result.void_max = -result.void_min;
-  const std::int64_t z = cells.lo[2] - sums.solid.cells().lo[2];
-  const int nz = static_cast<int>(cells.size(2));
-  for (std::int64_t i = cells.lo[0]; i < cells.hi[0]; ++i)
-    for (std::int64_t j = cells.lo[1]; j < cells.hi[1]; ++j) {
-      const int row = static_cast<int>((i - cells.lo[0]) * kBlock + (j - cells.lo[1]));
-      const double* solid = sums.solid.row(i, j) + z;
-      const double* wall = walls ? walls + row * kBlock : nullptr;
-      finish_row(solid, mass ? sums.mass.row(i, j) + z : nullptr, wall, row, nz, leaves, result);
-      if (what.dense) keep(solid, wall, i, j, cells, *what.dense);
-    }
+  for_rows(cells, [&](std::int64_t row, std::int64_t i, std::int64_t j) {
+    const double* sums = sums_of_row(rows, cells, i, j);
+    const double* wall = walls ? walls + row * kBlock : nullptr;
+    finish_row(sums, wall, static_cast<int>(row), static_cast<int>(cells.size(2)), leaves, result);
+    const CellRange in_row{{i, j, cells.lo[2]}, {i + 1, j + 1, cells.hi[2]}};
+    if (what.dense) keep(what.channels, sums, rows.plane(), wall, in_row, *what.dense);
+  });
   set_active(*result.solid_leaf, leaves.solid_on);
   set_active(*result.void_leaf, leaves.any_on);
-  if (mass) set_active(*result.mass_leaf, leaves.solid_on);
   if (walls) set_active(*result.available_leaf, leaves.wall_on);
+  for (const Output& output : what.channels.outputs) {
+    result.quantity_leaves.push_back(new_leaf(cells, 0.0f));
+    result.parts.push_back(finish_quantity(output, cells, rows, *result.quantity_leaves.back()));
+  }
 }
 
 /// The walls' shares of a block's cells, in the leaf's own order.
@@ -289,42 +306,47 @@ void fill_dense_wall(const CellRange& cells, DenseShares& dense) {
       for (std::int64_t k = inside.lo[2]; k < inside.hi[2]; ++k) dense.available[dense.index(i, j, k)] = 0;
 }
 
+/// Leaves a cell `share` of solid; what belongs to its spheres becomes less in proportion, and means over
+/// them stay. `at` is the cell's channel 0.
+void set_share(const Channels& channels, double share, std::int64_t plane, double* at) {
+  const double factor = at[0] > 0 ? share / at[0] : 0.0;
+  at[0] = share;
+  for (int c = 1; c < channels.first_velocity(); ++c) at[c * plane] *= factor;
+  if (channels.moment) at[(channels.first_velocity() + 3) * plane] *= factor;
+}
+
 /// Takes off what is counted more than once where spheres overlap.
-void take_off_overlaps(const Overlaps& overlaps, std::uint64_t region, bool mass, Sums& sums) {
-  const auto at = [](CellRows& rows, const std::array<std::int64_t, 3>& cell) -> double& {
-    return rows.row(cell[0], cell[1])[cell[2] - rows.cells().lo[2]];
-  };
+void take_off_overlaps(const Overlaps& overlaps, std::uint64_t region, const Channels& channels,
+                       CellRows& rows) {
   const OverlapRange range = overlaps_in(overlaps, region);
   for (const CellOverlap* cell = range.first; cell != range.last; ++cell) {
-    at(sums.solid, cell->cell) -= cell->share;
-    if (mass) at(sums.mass, cell->cell) -= cell->mass;
+    double* at = rows.row(cell->cell[0], cell->cell[1]) + (cell->cell[2] - rows.cells().lo[2]);
+    set_share(channels, at[0] - cell->share, rows.plane(), at);
   }
 }
 
 /// Deletes what solid leaves less void than `least` of what walls leave. Returns how much, in cells.
-double delete_solid(double least, const CellRange& cells, const double* walls, bool mass, Sums& sums) {
+double delete_solid(double least, const CellRange& cells, const double* walls, const Channels& channels,
+                    CellRows& rows) {
   double deleted = 0;
-  const std::int64_t z = cells.lo[2] - sums.solid.cells().lo[2];
-  for (std::int64_t i = cells.lo[0]; i < cells.hi[0]; ++i)
-    for (std::int64_t j = cells.lo[1]; j < cells.hi[1]; ++j) {
-      const std::int64_t row = ((i - cells.lo[0]) * kBlock + (j - cells.lo[1])) * kBlock;
-      double* solid = sums.solid.row(i, j) + z;
-      for (std::int64_t k = 0; k < cells.size(2); ++k) {
-        const double most = (1 - least) * (walls ? 1 - walls[row + k] : 1.0);
-        if (solid[k] <= most) continue;
-        deleted += solid[k] - most;
-        if (mass) sums.mass.row(i, j)[z + k] *= most / solid[k];
-        solid[k] = most;
-      }
+  for_rows(cells, [&](std::int64_t row, std::int64_t i, std::int64_t j) {
+    double* solid = rows.row(i, j) + (cells.lo[2] - rows.cells().lo[2]);
+    for (std::int64_t k = 0; k < cells.size(2); ++k) {
+      const double most = (1 - least) * (walls ? 1 - walls[row * kBlock + k] : 1.0);
+      if (solid[k] <= most) continue;
+      deleted += solid[k] - most;
+      set_share(channels, most, rows.plane(), solid + k);
     }
+  });
   return deleted;
 }
 
 /// One block of a region whose cells are summed. Nothing when it is empty.
 void compute_block(const Accumulation& what, const std::array<std::int64_t, 3>& block,
-                   const Walled::Entry* wall, bool spheres, Sums& sums, std::vector<BlockResult>& results) {
+                   const Walled::Entry* wall, bool spheres, CellRows& rows,
+                   std::vector<BlockResult>& results) {
   const CellRange cells = block_cells(what.request.lattice, block);
-  const Filling filling = spheres ? filling_of(sums.solid, cells) : Filling::none;
+  const Filling filling = spheres ? filling_of(rows, cells) : Filling::none;
   const bool solid = filling != Filling::none;
   if (!solid && !wall) return;
   BlockResult& result = results.emplace_back();
@@ -335,19 +357,20 @@ void compute_block(const Accumulation& what, const std::array<std::int64_t, 3>& 
     result.wall = kBlockCells;
     result.active = kBlockCells;
     result.void_min = result.void_max = 0;
-    if (what.dense) fill_dense_wall(cells, *what.dense);
+    if (what.dense) fill_dense_wall(cells, what.dense->shares);
     return;
   }
   double shares[kBlockCells];
   if (wall) fill_walls(what, cells, wall->full, shares);
   if (what.request.least_void > 0)
-    result.deleted = delete_solid(what.request.least_void, cells, wall ? shares : nullptr, what.mass, sums);
-  if (filling == Filling::uniform && !wall && !what.dense && !what.mass && result.cells == kBlockCells) {
-    set_solid_tile(*(sums.solid.row(cells.lo[0], cells.lo[1]) + (cells.lo[2] - sums.solid.cells().lo[2])),
-                   result);
+    result.deleted =
+        delete_solid(what.request.least_void, cells, wall ? shares : nullptr, what.channels, rows);
+  if (filling == Filling::uniform && !wall && !what.dense && what.channels.none() &&
+      result.cells == kBlockCells) {
+    set_solid_tile(*sums_of_row(rows, cells, cells.lo[0], cells.lo[1]), result);
     return;
   }
-  finish_block(what, cells, wall ? shares : nullptr, sums, result);
+  finish_block(what, cells, wall ? shares : nullptr, rows, result);
 }
 
 /// How many spheres cover the whole region, if spheres that do so are all that reach into it; else nothing.
@@ -383,16 +406,15 @@ std::vector<BlockResult> compute_region(const Accumulation& what, const Walled& 
   const Lattice& lattice = what.request.lattice;
   const std::array<std::int64_t, 3> region = BlockGrid(lattice, kRegion).block(task.key);
   const CellRange cells = block_cells(lattice, region, kRegion);
-  const bool tiles = what.request.method == Method::exact && !what.overlaps && !what.dense && !what.mass &&
-                     task.bin != kNone && task.first_wall == task.last_wall &&
+  const bool tiles = what.request.method == Method::exact && !what.overlaps && !what.dense &&
+                     what.channels.none() && task.bin != kNone && task.first_wall == task.last_wall &&
                      cells.cells() == kRegion * kRegion * kRegion;
   if (tiles) {
     if (const auto covers = covering(what, task.bin, cells)) return fill_region(cells, *covers);
   }
-  sums.solid.reset(cells);
-  if (what.mass) sums.mass.reset(cells);
+  sums.rows.reset(cells, what.channels.count());
   if (task.bin != kNone) add_spheres(what, task.bin, cells, sums);
-  if (what.overlaps) take_off_overlaps(*what.overlaps, task.key, what.mass, sums);
+  if (what.overlaps) take_off_overlaps(*what.overlaps, task.key, what.channels, sums.rows);
   const BlockGrid grid(lattice);
   std::vector<BlockResult> results;
   std::size_t wall = task.first_wall;
@@ -401,7 +423,7 @@ std::vector<BlockResult> compute_region(const Accumulation& what, const Walled& 
     for (b[1] = cells.lo[1] / kBlock; b[1] * kBlock < cells.hi[1]; ++b[1])
       for (b[2] = cells.lo[2] / kBlock; b[2] * kBlock < cells.hi[2]; ++b[2]) {
         const bool walls = wall < task.last_wall && walled.blocks[wall].block == grid.key(b);
-        compute_block(what, b, walls ? &walled.blocks[wall] : nullptr, task.bin != kNone, sums, results);
+        compute_block(what, b, walls ? &walled.blocks[wall] : nullptr, task.bin != kNone, sums.rows, results);
         wall += walls;
       }
   return results;

@@ -10,6 +10,7 @@
 
 #include "voxel/average.h"
 #include "voxel/bins.h"
+#include "voxel/channels.h"
 #include "voxel/field.h"
 #include "voxel/methods_kernel.h"
 #include "voxel/union_overlaps.h"
@@ -34,7 +35,15 @@ struct BlockResult {
   double void_min = 1, void_max = 1;
   std::int64_t negative = 0;
   std::int64_t cells = 0, active = 0;  // active: cells with something in them
-  std::unique_ptr<Leaf> solid_leaf, void_leaf, available_leaf, mass_leaf;
+  std::unique_ptr<Leaf> solid_leaf, void_leaf, available_leaf;
+  std::vector<std::unique_ptr<Leaf>> quantity_leaves;  // an output each
+  std::vector<double> parts;                           // an output each: sum of part_of
+};
+
+/// What averages are taken from: shares, and the parts of the outputs (windowed_part_of) that are averaged.
+struct DenseParts {
+  DenseShares shares;
+  std::vector<std::vector<double>> parts;  // an output each, indexed as the shares; empty where not averaged
 };
 
 /// What all regions share.
@@ -44,10 +53,10 @@ struct Accumulation {
   const Bins& bins;                           // by regions
   const Solids& walls;                        // relative to the lattice
   const std::vector<WallBlock>& wall_blocks;  // by blocks
-  bool mass = false;                          // whether to fill mass densities
-  DenseShares* dense = nullptr;               // where averages are taken from, or null
-  const KernelSpread* kernel = nullptr;       // for Method::kernel; bins are then by its reach
-  const Overlaps* overlaps = nullptr;         // for Overlap::united
+  const Channels& channels;
+  DenseParts* dense = nullptr;           // where averages are taken from, or null
+  const KernelSpread* kernel = nullptr;  // for Method::kernel; bins are then by its reach
+  const Overlaps* overlaps = nullptr;    // for Overlap::united
 };
 
 /// One result per block that has something in it, in an order that depends on the lattice alone. Every voxel

@@ -11,7 +11,6 @@ namespace interstice::voxel {
 
 namespace {
 
-constexpr double kMostDoubles = 0x1p29;
 constexpr std::size_t kLanes = 16;  // neighbouring rows that are summed side by side
 
 // Rows of n values, `stride` apart; rows side by side are consecutive.
@@ -115,7 +114,7 @@ DenseShares dense_shares(const Lattice& lattice, const CellRange& occupied,
     cells *= static_cast<double>(shares.range.size(axis));
   }
   const double doubles = cells * (walls ? 2 : 1);
-  if (doubles > kMostDoubles) {
+  if (doubles > kMostAverageDoubles) {
     throw InputError("averaged fields over this box need " + shown(doubles * 8 / 0x1p30, 3) +
                      " GiB (at most 4); choose a larger voxel, a smaller box, or no averaging length");
   }

@@ -35,6 +35,9 @@ struct DenseShares {
   }
 };
 
+/// What averages may hold in memory, in numbers: 4 GiB.
+inline constexpr double kMostAverageDoubles = 0x1p29;
+
 /// Room for the averages around `occupied` cells. Throws InputError, naming the remedies, when that would
 /// take more than 4 GiB (2^29 doubles: half as many cells with walls, since then two numbers a cell are
 /// kept).

@@ -37,13 +37,24 @@ void for_each_block_touched(const Lattice& lattice, const BlockGrid& grid, std::
     for (m[1] = images.lo[1]; m[1] <= images.hi[1]; ++m[1])
       for (m[2] = images.lo[2]; m[2] <= images.hi[2]; ++m[2]) {
         const PlacedSphere image = moved(sphere, lattice, m);
-        const CellRange cells = intersection(bounding_cells(lattice, image), all_cells(lattice));
+        const CellRange bounding = bounding_cells(lattice, image);
+        const CellRange cells = intersection(bounding, all_cells(lattice));
         if (cells.empty()) continue;
         reached = united(reached, cells);
-        std::array<std::int64_t, 3> b;
-        for (b[0] = cells.lo[0] / edge; b[0] <= (cells.hi[0] - 1) / edge; ++b[0])
-          for (b[1] = cells.lo[1] / edge; b[1] <= (cells.hi[1] - 1) / edge; ++b[1])
-            for (b[2] = cells.lo[2] / edge; b[2] <= (cells.hi[2] - 1) / edge; ++b[2])
+        std::array<std::int64_t, 3> b, last;
+        bool whole = true;  // one block holds all of the sphere
+        for (int axis = 0; axis < 3; ++axis) {
+          b[axis] = cells.lo[axis] / edge, last[axis] = (cells.hi[axis] - 1) / edge;
+          whole = whole && b[axis] == last[axis] && cells.size(axis) == bounding.size(axis);
+        }
+        if (whole) {
+          visit(grid.key(b), m);
+          continue;
+        }
+        const std::array<std::int64_t, 3> first = b;
+        for (b[0] = first[0]; b[0] <= last[0]; ++b[0])
+          for (b[1] = first[1]; b[1] <= last[1]; ++b[1])
+            for (b[2] = first[2]; b[2] <= last[2]; ++b[2])
               if (touches(lattice, image, block_cells(lattice, b, edge))) visit(grid.key(b), m);
       }
 }

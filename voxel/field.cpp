@@ -3,6 +3,7 @@
 #include <openvdb/openvdb.h>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <optional>
 
@@ -11,10 +12,12 @@
 #include "voxel/accumulate.h"
 #include "voxel/average.h"
 #include "voxel/bins.h"
+#include "voxel/channels.h"
 #include "voxel/grids.h"
 #include "voxel/methods.h"
 #include "voxel/methods_kernel.h"
 #include "voxel/sum.h"
+#include "voxel/text.h"
 #include "voxel/union_overlaps.h"
 #include "voxel/walls.h"
 
@@ -33,6 +36,7 @@ void check(const SpheresView& spheres, const FieldRequest& request) {
   if (!(std::isfinite(request.density) && request.density >= 0))
     throw InputError("the density must be finite and not negative");
   check_spheres(spheres, lattice, request.periodic);
+  check_quantities(spheres, request.quantities);
 }
 
 // What the spheres themselves bring into the box, apart from any voxel.
@@ -42,13 +46,15 @@ struct Inside {
   std::vector<double> each;  // [m^3] per sphere, where asked for
 };
 
-double clipped_volume(const Lattice& lattice, const PlacedSphere& sphere) {
+/// Volume [m^3] of the sphere inside the box; nothing where it does not touch the box.
+std::optional<double> clipped_volume(const Lattice& lattice, const PlacedSphere& sphere) {
   const CellRange cells = bounding_cells(lattice, sphere), box = all_cells(lattice);
-  if (!touches(lattice, sphere, box)) return 0;
+  bool inside = true;
   for (int axis = 0; axis < 3; ++axis)
-    if (cells.lo[axis] < box.lo[axis] || cells.hi[axis] > box.hi[axis])
-      return sphere_range_volume(lattice, sphere, box);
-  return 4 * std::numbers::pi / 3 * (sphere.radius * sphere.radius * sphere.radius);
+    inside = inside && cells.lo[axis] >= box.lo[axis] && cells.hi[axis] <= box.hi[axis];
+  if (inside) return 4 * std::numbers::pi / 3 * (sphere.radius * sphere.radius * sphere.radius);
+  if (!touches(lattice, sphere, box)) return {};
+  return sphere_range_volume(lattice, sphere, box);
 }
 
 Inside spheres_inside(const SpheresView& spheres, const FieldRequest& request, bool each) {
@@ -67,9 +73,9 @@ Inside spheres_inside(const SpheresView& spheres, const FieldRequest& request, b
       for (m[0] = images.lo[0]; m[0] <= images.hi[0]; ++m[0])
         for (m[1] = images.lo[1]; m[1] <= images.hi[1]; ++m[1])
           for (m[2] = images.lo[2]; m[2] <= images.hi[2]; ++m[2]) {
-            const PlacedSphere image = moved(sphere, lattice, m);
-            volume += clipped_volume(lattice, image);
-            touching = touching || touches(lattice, image, all_cells(lattice));
+            const std::optional<double> part = clipped_volume(lattice, moved(sphere, lattice, m));
+            volume += part.value_or(0);
+            touching = touching || part.has_value();
           }
       if (each) all.each[s] = volume;
       partial[b].particles += touching;
@@ -126,13 +132,58 @@ double leave_out_hidden(const Overlaps& overlaps, const std::vector<double>& ins
   return volume.value();
 }
 
+/// Room for what averages are taken from.
+DenseParts dense_parts(const Lattice& lattice, const CellRange& occupied,
+                       const std::array<Window, 3>& windows, bool walls, const Channels& channels) {
+  DenseParts dense{dense_shares(lattice, occupied, windows, walls), {}};
+  dense.parts.resize(channels.outputs.size());
+  const std::size_t cells = dense.shares.solid.size();
+  double numbers = static_cast<double>(walls ? 2 * cells : cells);
+  for (const Output& output : channels.outputs)
+    numbers += output.averageable() ? static_cast<double>(cells) : 0;
+  if (numbers > kMostAverageDoubles)
+    throw InputError("averages of these quantities over this box need " + shown(numbers * 8 / 0x1p30, 3) +
+                     " GiB (at most 4); choose fewer quantities, a larger voxel, a smaller box, or no "
+                     "averaging length");
+  for (std::size_t o = 0; o < dense.parts.size(); ++o)
+    if (channels.outputs[o].averageable()) dense.parts[o].assign(cells, 0.0);
+  return dense;
+}
+
+/// Each quantity's parts by the same window as the shares.
+void average_all(const Lattice& lattice, const std::array<Window, 3>& windows, DenseParts& dense) {
+  for (std::vector<double>& parts : dense.parts) {
+    if (parts.empty()) continue;
+    DenseShares one{dense.shares.range, std::move(parts), dense.shares.available};
+    average(lattice, windows, one);
+    parts = std::move(one.solid);
+  }
+  average(lattice, windows, dense.shares);  // last: this uses up what is available
+}
+
+/// Integrals and means of the quantities, from the parts of all blocks.
+void sum_quantities(const Channels& channels, const std::vector<BlockResult>& blocks, Field& field) {
+  auto quantity = field.quantities.begin();
+  for (std::size_t o = 0; o < channels.outputs.size(); ++o) {
+    if (channels.outputs[o].is_mass()) continue;
+    CompensatedSum parts;
+    for (const BlockResult& block : blocks)
+      if (!block.parts.empty()) parts.add(block.parts[o]);
+    QuantityGrid& q = *quantity++;
+    const double volume = q.per_solid ? field.sums.solid_volume_field : field.sums.available_volume;
+    q.integral = parts.value() * field.lattice.cell_volume();
+    q.mean = volume > 0 ? q.integral / volume : std::numeric_limits<double>::quiet_NaN();
+  }
+}
+
 }  // namespace
 
 Field compute_field(const SpheresView& spheres, const Solids& solids, const FieldRequest& request) {
   openvdb::initialize();
   check(spheres, request);
   const Lattice& lattice = request.lattice;
-  const bool mass = spheres.density || request.density > 0, averaged = request.average_length > 0;
+  const Channels channels = channels_for(spheres, request.quantities, request.density);
+  const bool averaged = request.average_length > 0;
   const bool united = request.overlap == Overlap::united;
   const Solids walls = relative_to(solids, lattice);
   const std::vector<WallBlock> walled = wall_blocks(walls, lattice);
@@ -148,28 +199,29 @@ Field compute_field(const SpheresView& spheres, const Solids& solids, const Fiel
   std::optional<Overlaps> overlaps;
   double overlap_volume = 0;
   if (united) {
-    overlaps = find_overlaps(spheres, lattice, bins, kRegion, request.density);
+    overlaps = find_overlaps(spheres, lattice, bins, kRegion);
     overlap_volume = leave_out_hidden(*overlaps, inside.each, bins);
   }
 
-  DenseShares dense;
+  DenseParts dense;
   std::array<Window, 3> windows;
   if (averaged && !bins.reached.empty()) {
     windows = averaging_windows(lattice, request.average_length, request.periodic);
-    dense = dense_shares(lattice, bins.reached, windows, !walled.empty());
+    dense = dense_parts(lattice, bins.reached, windows, !walled.empty(), channels);
   }
-  std::vector<BlockResult> blocks =
-      accumulate({spheres, request, bins, walls, walled, mass, dense.range.empty() ? nullptr : &dense,
-                  kernel ? &*kernel : nullptr, overlaps ? &*overlaps : nullptr});
+  std::vector<BlockResult> blocks = accumulate(
+      {spheres, request, bins, walls, walled, channels, dense.shares.range.empty() ? nullptr : &dense,
+       kernel ? &*kernel : nullptr, overlaps ? &*overlaps : nullptr});
 
   Field field;
   field.lattice = lattice;
   field.sums = sums_of(lattice, inside, blocks);
   field.sums.overlap_volume = overlap_volume;
-  fill_grids(request, !solids.empty(), mass, blocks, field);
+  fill_grids(request, !solids.empty(), channels, blocks, field);
+  sum_quantities(channels, blocks, field);
   if (averaged) {
-    if (!dense.range.empty()) average(lattice, windows, dense);
-    fill_averaged_grids(request, dense, field);
+    if (!dense.shares.range.empty()) average_all(lattice, windows, dense);
+    fill_averaged_grids(request, channels, dense, field);
   }
   return field;
 }

@@ -5,9 +5,12 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "voxel/float_grid.h"
 #include "voxel/lattice.h"
+#include "voxel/precision.h"
+#include "voxel/quantities.h"
 #include "voxel/solids.h"
 #include "voxel/spheres.h"
 
@@ -27,8 +30,10 @@ struct FieldRequest {
                           // leave of a voxel is deleted, as CFD couplings do; 0: kept
   double kernel_length = 0;  // [m] how far Method::kernel reaches from a centre along each axis
   Overlap overlap = Overlap::sum;
-  double average_length = 0;  // edge of the averaging cube [m]; 0: no averaged grids
-  double density = 0;         // [kg/m^3] used where spheres carry none; 0: no mass density
+  Precision precision = Precision::real64;  // of Method::exact; the others work in double
+  double average_length = 0;                // edge of the averaging cube [m]; 0: no averaged grids
+  double density = 0;                       // [kg/m^3] used where spheres carry none; 0: no mass density
+  QuantityRequest quantities;
 };
 
 /// Sums taken in double before anything is rounded to a grid's floats.
@@ -39,7 +44,7 @@ struct FieldSums {
   double available_volume = 0;        // [m^3] box minus walls
   double mass = 0;                    // [kg] inside the box
   double void_min = 0, void_max = 0;  // over all voxels
-  std::int64_t negative_voxels = 0;   // voxels with void fraction < -1e-12
+  std::int64_t negative_voxels = 0;   // voxels with void fraction < negative_below()
   double written_solid_volume = 0;    // [m^3] summed over the float grid
   double overlap_volume = 0;          // [m^3] taken off where spheres overlap, for Overlap::united
   double deleted_volume = 0;          // [m^3] deleted by FieldRequest::least_void
@@ -50,6 +55,10 @@ struct FieldSums {
 /// background 1. Active are: in the solid and mass grids voxels with solid, in the void grid voxels with
 /// solid or wall, in the available grid voxels with wall (blocks that one wall fills are tiles there), in
 /// averaged grids voxels whose average is not zero.
+///
+/// Quantities have values in voxels with solid. Their averages follow from sums over the same window: means
+/// over solid are sums of what solid brings over the sum of solid, those per volume are over what is
+/// available, as the solid fraction is; a temperature is then about the mean velocity of the window.
 ///
 /// Averages are taken over a cube centred on each voxel: sum of solid / sum of available, with voxels that
 /// the cube's faces cut counted in part. Only what the cube holds of the box and outside walls counts, so at
@@ -66,11 +75,13 @@ struct Field {
   FloatGridPtr mass_density;             // [kg/m^3]; null where no density is known
   FloatGridPtr solid_fraction_averaged;  // sum of solid / sum of available; null unless asked for
   FloatGridPtr void_fraction_averaged;   // 1 - solid_fraction_averaged
+  std::vector<QuantityGrid> quantities;  // as asked for: components one after the other
 };
 
 /// Computes the fields asked for. Same bits for any number of threads; a voxel's bits depend only on the
 /// spheres that touch it (averages: up to rounding). Throws InputError on spheres that are not finite
-/// and positive, cells that are not cubic, or averages that would take more than 4 GiB.
+/// and positive, cells that are not cubic, quantities whose columns are missing, or averages that would take
+/// more than 4 GiB.
 Field compute_field(const SpheresView& spheres, const Solids& solids, const FieldRequest& request);
 
 }  // namespace interstice::voxel

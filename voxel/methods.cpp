@@ -117,7 +117,7 @@ std::string method_name(const FieldRequest& request) {
   std::string name;
   switch (request.method) {
     case Method::exact:
-      name = "exact";
+      name = request.precision == Precision::mixed ? "exact, single" : "exact";
       break;
     case Method::centre:
       name = "centre";

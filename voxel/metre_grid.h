@@ -18,27 +18,30 @@
 
 namespace interstice::voxel {
 
-/// A FloatGrid that can be written to files whatever its voxels' size.
-class MetreGrid final : public openvdb::FloatGrid {
+/// A grid that can be written to files whatever its voxels' size.
+template <class Grid>
+class MetreGridOf final : public Grid {
  public:
-  using openvdb::FloatGrid::FloatGrid;
+  using Tree = typename Grid::TreeType;
+  using Grid::Grid;
 
-  openvdb::GridBase::Ptr copyGrid() override { return sharing(treePtr()); }
+  openvdb::GridBase::Ptr copyGrid() override { return sharing(this->treePtr()); }
   openvdb::GridBase::ConstPtr copyGrid() const override {
-    return sharing(openvdb::ConstPtrCast<openvdb::FloatTree>(constTreePtr()));
+    return sharing(openvdb::ConstPtrCast<Tree>(this->constTreePtr()));
   }
   openvdb::GridBase::Ptr deepCopyGrid() const override {
-    return sharing(std::make_shared<openvdb::FloatTree>(constTree()));
+    return sharing(std::make_shared<Tree>(this->constTree()));
   }
 
  private:
-  openvdb::GridBase::Ptr sharing(const openvdb::FloatTree::Ptr& tree) const {
-    auto grid = std::make_shared<MetreGrid>(tree);
+  openvdb::GridBase::Ptr sharing(const typename Tree::Ptr& tree) const {
+    auto grid = std::make_shared<MetreGridOf>(tree);
     grid->insertMeta(*this);
-    grid->setTransform(openvdb::ConstPtrCast<openvdb::math::Transform>(constTransformPtr()));
+    grid->setTransform(openvdb::ConstPtrCast<openvdb::math::Transform>(this->constTransformPtr()));
     return grid;
   }
 };
+using MetreGrid = MetreGridOf<openvdb::FloatGrid>;
 
 /// Integer indices at the centres of a cubic lattice's cells, in metres.
 openvdb::math::Transform::Ptr cell_transform(const Lattice& lattice);

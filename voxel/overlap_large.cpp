@@ -15,9 +15,10 @@ struct Interval {
 };
 
 // Double-exponential points and weights on [0, 1] (Takahasi & Mori, Publ. RIMS 9, 1974, 721): t = 1/(1 +
-// exp(-pi sinh x)) at evenly spaced x. The outermost weights are below 1e-17.
+// exp(-pi sinh x)) at evenly spaced x. The outermost weights are below 1e-17; twice as many points change no
+// cell by more than rounding does (20,000 surface cells at R/h from 51 to 30,000).
 struct DoubleExponentialRule {
-  static constexpr int kSide = 36;
+  static constexpr int kSide = 20;
   static constexpr int kPoints = 2 * kSide + 1;
   static constexpr double kStep = 3.24 / kSide;
   std::array<double, kPoints> at, weight;

@@ -5,7 +5,7 @@
 // the box) is integrated over the box's shortest axis, from one z to the next at which the circle passes a
 // corner of the rectangle. In between the area is smooth, except that at or just beyond an end it may start
 // as t^(3/2), where circle and edge touch; double-exponential points do not mind. The error is about 1e-16 /
-// h of the box; a box costs some ten microseconds.
+// h of the box; a box costs some microseconds.
 #pragma once
 
 #include "base/vec3.h"

@@ -2,6 +2,8 @@
 
 #include <openvdb/openvdb.h>
 
+#include <limits>
+
 namespace interstice::voxel {
 
 namespace {
@@ -16,7 +18,13 @@ class Reader {
         solid_(field.solid_fraction->getConstAccessor()),
         mass_((field.mass_density ? field.mass_density : field.solid_fraction)->getConstAccessor()),
         averaged_((field.void_fraction_averaged ? field.void_fraction_averaged : field.void_fraction)
-                      ->getConstAccessor()) {}
+                      ->getConstAccessor()) {
+    for (const QuantityGrid& q : field.quantities) {
+      out.quantities.push_back({q.full_name(), q.units, {}, {}});
+      quantities_.push_back(q.grid->getConstAccessor());
+      quantities_averaged_.push_back((q.averaged ? q.averaged : q.grid)->getConstAccessor());
+    }
+  }
 
   void read(const std::array<std::int64_t, 3>& cell) {
     const openvdb::Coord at(static_cast<int>(cell[0]), static_cast<int>(cell[1]), static_cast<int>(cell[2]));
@@ -26,12 +34,23 @@ class Reader {
     if (field_.mass_density) out_.mass_density.push_back(static_cast<double>(mass_.getValue(at)));
     if (field_.void_fraction_averaged)
       out_.void_fraction_averaged.push_back(static_cast<double>(averaged_.getValue(at)));
+    for (std::size_t q = 0; q < quantities_.size(); ++q) {
+      out_.quantities[q].values.push_back(value_at(quantities_[q], at));
+      if (field_.quantities[q].averaged)
+        out_.quantities[q].averaged.push_back(value_at(quantities_averaged_[q], at));
+    }
   }
 
  private:
+  static double value_at(const openvdb::FloatGrid::ConstAccessor& grid, const openvdb::Coord& at) {
+    float value = 0;
+    return grid.probeValue(at, value) ? static_cast<double>(value) : std::numeric_limits<double>::quiet_NaN();
+  }
+
   const Field& field_;
   Samples& out_;
   openvdb::FloatGrid::ConstAccessor void_, solid_, mass_, averaged_;
+  std::vector<openvdb::FloatGrid::ConstAccessor> quantities_, quantities_averaged_;
 };
 
 }  // namespace

@@ -1,11 +1,18 @@
 // Reading a field out: planes of voxels, rows of voxels.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "voxel/field.h"
 
 namespace interstice::voxel {
+
+/// A quantity of field.h at the same voxels, NaN where it has no value.
+struct SampledQuantity {
+  std::string name, units;               // "velocity_x", "m/s"
+  std::vector<double> values, averaged;  // averaged: empty unless the field has it
+};
 
 /// Values at voxel centres, no interpolation. `j` is the faster axis for a slice; a line has rows == 1.
 struct Samples {
@@ -16,6 +23,7 @@ struct Samples {
   std::vector<double> void_fraction, solid_fraction;
   std::vector<double> mass_density;            // [kg/m^3], empty where unknown
   std::vector<double> void_fraction_averaged;  // empty unless the field has it
+  std::vector<SampledQuantity> quantities;     // in the field's order
 };
 
 /// The plane of voxels that holds the coordinate `at` [m] on `axis`. A coordinate on a face between two

@@ -233,16 +233,7 @@ double shared_by_all(const Graph& graph, const std::vector<std::uint32_t>& nodes
 }
 
 /// All parts of one cell made one number.
-struct Densities {
-  const SpheresView& spheres;
-  double otherwise = 0;
-
-  double of(const Graph& graph, std::uint32_t node) const {
-    return spheres.density ? spheres.density[graph.nodes[node].sphere] : otherwise;
-  }
-};
-
-CellOverlap merge(const Graph& graph, const Densities& densities, const Part* first, const Part* last) {
+CellOverlap merge(const Graph& graph, const Part* first, const Part* last) {
   CellOverlap overlap;
   overlap.cell = first->cell;
   std::vector<std::uint32_t> crowd;
@@ -250,12 +241,7 @@ CellOverlap merge(const Graph& graph, const Densities& densities, const Part* fi
     if (part->crowded()) crowd.insert(crowd.end(), {part->pair.a, part->pair.b});
   std::sort(crowd.begin(), crowd.end());
   crowd.erase(std::unique(crowd.begin(), crowd.end()), crowd.end());
-  if (!crowd.empty()) {
-    overlap.share = shared_by_all(graph, crowd, first->cell);
-    double density = 0;
-    for (const std::uint32_t node : crowd) density += densities.of(graph, node);
-    overlap.mass = overlap.share * density / static_cast<double>(crowd.size());
-  }
+  if (!crowd.empty()) overlap.share = shared_by_all(graph, crowd, first->cell);
   const auto within = [&](std::uint32_t node) {
     return std::binary_search(crowd.begin(), crowd.end(), node);
   };
@@ -263,7 +249,6 @@ CellOverlap merge(const Graph& graph, const Densities& densities, const Part* fi
     const auto [a, b] = part->pair;
     if (part->crowded() || (within(a) && within(b))) continue;  // counted with the crowd
     overlap.share += part->share;
-    overlap.mass += part->share * 0.5 * (densities.of(graph, a) + densities.of(graph, b));
   }
   return overlap;
 }
@@ -281,8 +266,7 @@ std::vector<Part> all_parts(const Graph& graph) {
 }
 
 /// From parts in the order of cells to one entry a cell.
-void fill(const Graph& graph, const Densities& densities, std::int64_t edge, const std::vector<Part>& parts,
-          Overlaps& overlaps) {
+void fill(const Graph& graph, std::int64_t edge, const std::vector<Part>& parts, Overlaps& overlaps) {
   std::vector<std::size_t> first;
   for (std::size_t p = 0; p < parts.size(); ++p)
     if (p == 0 || parts[p].cell != parts[p - 1].cell) first.push_back(p);
@@ -292,7 +276,7 @@ void fill(const Graph& graph, const Densities& densities, std::int64_t edge, con
   for_each_block({overlaps.cells.size(), 16}, [&](std::size_t, std::size_t begin, std::size_t end) {
     for (std::size_t c = begin; c < end; ++c) {
       CellOverlap& cell = overlaps.cells[c];
-      cell = merge(graph, densities, parts.data() + first[c], parts.data() + first[c + 1]);
+      cell = merge(graph, parts.data() + first[c], parts.data() + first[c + 1]);
       cell.region = regions.key({cell.cell[0] / edge, cell.cell[1] / edge, cell.cell[2] / edge});
     }
   });
@@ -311,7 +295,7 @@ void fill(const Graph& graph, const Densities& densities, std::int64_t edge, con
 }  // namespace
 
 Overlaps find_overlaps(const SpheresView& spheres, const Lattice& lattice, const Bins& bins,
-                       std::int64_t edge, double density) {
+                       std::int64_t edge) {
   Overlaps overlaps;
   overlaps.hidden.assign(spheres.count, 0);
   Graph graph{lattice, nodes_of(bins), {}, {}, {}, {}};
@@ -320,13 +304,13 @@ Overlaps find_overlaps(const SpheresView& spheres, const Lattice& lattice, const
   graph.pairs = find_pairs(graph, bins, overlaps.hidden);
   find_neighbours(graph);
   overlaps.pairs = static_cast<std::int64_t>(graph.pairs.size());
-  fill(graph, {spheres, density}, edge, all_parts(graph), overlaps);
+  fill(graph, edge, all_parts(graph), overlaps);
   return overlaps;
 }
 
 OverlapRange overlaps_in(const Overlaps& overlaps, std::uint64_t region) {
   const auto [first, last] =
-      std::equal_range(overlaps.cells.begin(), overlaps.cells.end(), CellOverlap{region, {}, 0, 0},
+      std::equal_range(overlaps.cells.begin(), overlaps.cells.end(), CellOverlap{region, {}, 0},
                        [](const CellOverlap& a, const CellOverlap& b) { return a.region < b.region; });
   const CellOverlap* data = overlaps.cells.data();
   return {data + (first - overlaps.cells.begin()), data + (last - overlaps.cells.begin())};

@@ -6,6 +6,7 @@
 // missing to the closed form (some 1e-9) goes to the cell with the largest part, so that the lens is exact in
 // total. Where a third sphere reaches into a lens, the cells that it touches are integrated with all spheres
 // at once (error below 1e-5 of a cell, for more than 16 spheres in one cell below 1e-3).
+// What spheres bring into a cell beside their volume becomes less in proportion (accumulate.cpp).
 //
 // Cells without overlap are not mentioned, so their sums stay as they are.
 #pragma once
@@ -22,7 +23,6 @@ struct CellOverlap {
   std::uint64_t region = 0;  // key of the region that the cell is in
   std::array<std::int64_t, 3> cell{0, 0, 0};
   double share = 0;  // of the cell
-  double mass = 0;   // [kg/m^3] the share times the mean density of the spheres that share it
 };
 
 struct Overlaps {
@@ -35,7 +35,7 @@ struct Overlaps {
 
 /// `bins` are of the same spheres, by regions of `edge` cells. The same bits for any number of threads.
 Overlaps find_overlaps(const SpheresView& spheres, const Lattice& lattice, const Bins& bins,
-                       std::int64_t edge, double density);
+                       std::int64_t edge);
 
 /// The entries of one region: [first, last).
 struct OverlapRange {

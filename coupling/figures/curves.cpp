@@ -186,8 +186,8 @@ std::string panel_of(const std::vector<CurveFigure>& panels, std::size_t p, cons
   const Frame& frame = layout.frames[p];
   const Range y = y_range(panel);
   const bool last = p + 1 == panels.size();
-  std::string x_label;
-  for (const auto& each : panels) x_label = each.x_label.empty() ? x_label : each.x_label;
+  std::string along;
+  for (const auto& each : panels) along = each.x_label.empty() ? along : each.x_label;
 
   std::string commands = place(layout.canvas, frame);
   if (panel.log_y) {
@@ -199,8 +199,8 @@ std::string panel_of(const std::vector<CurveFigure>& panels, std::size_t p, cons
   // Not gnuplot's own label, which long numbers on the axis push over the edge.
   commands += write(layout.canvas, {24, frame.top + 0.5 * frame.height,
                                     wrapped(panel.y_label, 15, frame.height), 15, "center rotate"});
-  commands += last ? fmt::format("set format x '%g'; set xlabel {}\n", text_literal(x_label))
-                   : "set format x ''; unset xlabel\n";
+  commands += last ? "set format x '%g'\n" + x_label(layout.canvas, frame, along)
+                   : std::string("set format x ''\n");
   if (p > 0) commands += write(layout.canvas, {left, frame.top - 16, panel.title, 15, "left"});
   commands += marks_of(panel, layout, frame, x, p == 0);
   const bool legend = p == 0 || !same_names(panel, panels[p - 1]);

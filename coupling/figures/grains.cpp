@@ -158,9 +158,11 @@ std::string row_of(const io::ParticleFrame& frame, const Layout& layout, std::si
     commands +=
         fmt::format("set {0}range [{1:.8g}:{2:.8g}]; set {0}tics {3:g}\n", k == 0 ? "x" : "y", lo, hi, step);
   }
-  commands += fmt::format("set ylabel '{} [{}]'\n", "xyz"[sight.axes[1]], layout.unit.name);
-  commands +=
-      last ? fmt::format("set xlabel '{} [{}]'\n", "xyz"[sight.axes[0]], layout.unit.name) : "unset xlabel\n";
+  const auto name = [&](std::size_t k) {
+    return fmt::format("{} [{}]", "xyz"[sight.axes[k]], layout.unit.name);
+  };
+  commands += y_label(layout.canvas, place_of, name(1));
+  if (last) commands += x_label(layout.canvas, place_of, name(0));
   commands += edges(silhouette(frame.walls, sight.depth, sight.axes, part), {scale, scale});
   return commands +
          "plot data using 1:2:3:4 with circles fillstyle solid 1.0 border lc rgb '#202020' lc palette lw "

@@ -86,12 +86,24 @@ std::string write(const Canvas& canvas, const Text& text) {
                      text.size);
 }
 
+std::string x_label(const Canvas& canvas, const Frame& frame, std::string_view text) {
+  return write(canvas, {frame.left + 0.5 * frame.width, frame.top + frame.height + 50, std::string(text), 15,
+                        "center"});
+}
+
+std::string y_label(const Canvas& canvas, const Frame& frame, std::string_view text) {
+  return write(canvas,
+               {frame.left - 80, frame.top + 0.5 * frame.height, std::string(text), 15, "center rotate"});
+}
+
 std::string colour_bar(const Canvas& canvas, const Frame& frame, std::string_view label) {
   return fmt::format(
       "set colorbox vertical user origin screen {:.5f}, screen {:.5f} size screen {:.5f}, screen {:.5f}\n"
-      "set cblabel {} font ',15' offset 1.2\n",
+      "{}",
       canvas.across(frame.left), canvas.up(frame.top + frame.height), frame.width / canvas.width,
-      frame.height / canvas.height, text_literal(label));
+      frame.height / canvas.height,
+      write(canvas, {frame.left + frame.width + 72, frame.top + 0.5 * frame.height, std::string(label), 15,
+                     "center rotate"}));
 }
 
 std::string headline(const Canvas& canvas, double left, const std::string& text) {

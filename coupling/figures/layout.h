@@ -48,6 +48,10 @@ std::string headline(const Canvas& canvas, double left, const std::string& text)
 std::string foot_note(const Canvas& canvas, double left, const std::string& text);
 double foot_note_height(const Canvas& canvas, double left, const std::string& text);
 
+/// Labels of a plot's axes, at places of our own: gnuplot's depend on the kind of figure and on the tics.
+std::string x_label(const Canvas& canvas, const Frame& frame, std::string_view text);
+std::string y_label(const Canvas& canvas, const Frame& frame, std::string_view text);
+
 /// The colour bar of the next plot, vertical, filling `frame`, its label on the far side.
 std::string colour_bar(const Canvas& canvas, const Frame& frame, std::string_view label);
 

@@ -96,8 +96,7 @@ void write_map(const std::filesystem::path& png, const MapFigure& figure, const 
   script += fmt::format(
       "set xrange [{:.9g}:{:.9g}]; set xtics {:g}; set yrange [{:.9g}:{:.9g}]; set ytics {:g}\n", x.front(),
       x.back(), tick_step(x.back() - x.front(), 9), y.front(), y.back(), tick_step(y.back() - y.front(), 10));
-  script += fmt::format("set xlabel {}\n", text_literal(figure.x_label));
-  script += write(canvas, {24, top + 0.5 * plot_height, figure.y_label, 15, "center rotate"});
+  script += x_label(canvas, frame, figure.x_label) + y_label(canvas, frame, figure.y_label);
   script += plot_of(figure, x[1] - x[0]);
   draw(png, {canvas.width, canvas.height, data_of(figure, x, y), script, formats});
 }

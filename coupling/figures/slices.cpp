@@ -193,7 +193,7 @@ std::string contour_tables(const SliceFigure& figure, const std::vector<Panel>& 
   return commands + "unset contour; set surface\n";
 }
 
-std::string axes_of(const Panel& panel) {
+std::string axes_of(const Panel& panel, const Canvas& canvas) {
   const Point scale = panel.scale();
   std::string commands;
   for (std::size_t k = 0; k < 2; ++k) {
@@ -204,13 +204,11 @@ std::string axes_of(const Panel& panel) {
     commands += fmt::format("set {}range [{:.8g}:{:.8g}]; set {}tics {:g}\n", name, lo, hi, name, step);
   }
   const std::string stretched = panel.stretch > 1 ? fmt::format("\nstretched {}×", panel.stretch) : "";
-  commands += fmt::format(
-      "set ylabel {} offset -0.5\n",
-      text_literal(fmt::format("{} [{}]{}", axis_names[panel.axes[1]], panel.unit[1].name, stretched)));
-  if (panel.shares_axis_with_next) return commands + "set format x ''; unset xlabel\n";
-  return commands +
-         fmt::format("set format x '%g'; set xlabel {}\n",
-                     text_literal(fmt::format("{} [{}]", axis_names[panel.axes[0]], panel.unit[0].name)));
+  commands += y_label(canvas, panel.frame,
+                      fmt::format("{} [{}]{}", axis_names[panel.axes[1]], panel.unit[1].name, stretched));
+  if (panel.shares_axis_with_next) return commands + "set format x ''\n";
+  return commands + "set format x '%g'\n" +
+         x_label(canvas, panel.frame, fmt::format("{} [{}]", axis_names[panel.axes[0]], panel.unit[0].name));
 }
 
 std::string plot_of(const SliceFigure& figure, const Panel& panel, std::size_t i) {
@@ -246,7 +244,9 @@ std::string script_of(const SliceFigure& figure, const std::vector<Panel>& panel
   const double bar_top = panels.front().frame.top;
   const double bar_bottom = panels.back().frame.top + panels.back().frame.height;
   const double bar_height = std::clamp(bar_bottom - bar_top, 180.0, 460.0);
-  const Frame bar{canvas.width - right + 34, std::max(bar_top, 0.5 * (bar_top + bar_bottom - bar_height)), 22,
+  double edge = 0;
+  for (const Panel& panel : panels) edge = std::max(edge, panel.frame.left + panel.frame.width);
+  const Frame bar{edge + 34, std::max(bar_top, 0.5 * (bar_top + bar_bottom - bar_height)), 22,
                   std::min(bar_height, canvas.height - bar_top - 40)};
   for (std::size_t i = 0; i < panels.size(); ++i) {
     const Panel& panel = panels[i];
@@ -255,7 +255,7 @@ std::string script_of(const SliceFigure& figure, const std::vector<Panel>& panel
     script += write(canvas, {left, panel.frame.top - 18, panel.source->title, 15, "left"});
     script += i == 0 ? colour_bar(canvas, bar, figure.colour_label) + level_marks(figure, canvas, bar)
                      : "unset colorbox\n";
-    script += axes_of(panel);
+    script += axes_of(panel, canvas);
     script += hatched(
         cut(panel.source->walls, s.normal_axis, s.center.front()[s.normal_axis], panel.axes, panel.extent),
         panel.scale());

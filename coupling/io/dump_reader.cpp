@@ -61,8 +61,8 @@ struct Header {
   bool has_bounds = false;
   Box bounds;  // [the file's unit] of a tilted box: its lower corner, and from there its edges' lengths
   std::array<bool, 3> periodic{false, false, false};
-  bool tilted = false;
-  Vec3d tilt;  // xy, xz, yz [the file's unit]
+  bool tilted = false, slanted = false;  // slanted: a period does not lie along its axis
+  Vec3d tilt;                            // xy, xz, yz [the file's unit]
   ColumnMap map;
 };
 
@@ -114,7 +114,7 @@ class DumpReader : public ParticleReader {
   bool read_header(Header& header);
   void read_section(std::string_view item, Header& header);
   void read_bounds(std::string_view flags, Header& header);
-  void refuse_slanted_periods(const Header& header) const;
+  void drop_slanted_periods(Header& header);
   void read_units();
   ColumnMap read_columns(std::string_view names) const;
   void read_rows(const Header& header, ParticleFrame& frame, WrittenDigits& digits);
@@ -191,19 +191,23 @@ void DumpReader::read_bounds(std::string_view flags, Header& header) {
   if (!(header.bounds.hi.x >= header.bounds.lo.x && header.bounds.hi.y >= header.bounds.lo.y)) {
     wrong("the tilts are larger than the bounds around the box; the box has no width; correct the lines");
   }
-  refuse_slanted_periods(header);
+  drop_slanted_periods(header);
 }
 
 // The edges of a tilted box are (lx, 0, 0), (xy, ly, 0) and (xz, yz, lz): an edge that lies along its axis
 // can be a period of ours, whatever the others do.
-void DumpReader::refuse_slanted_periods(const Header& header) const {
+void DumpReader::drop_slanted_periods(Header& header) {
   const bool y = header.periodic[1] && header.tilt.x != 0;
   const bool z = header.periodic[2] && (header.tilt.y != 0 || header.tilt.z != 0);
   if (!y && !z) return;
-  wrong(
-      fmt::format("the box is tilted and periodic along {}; periods must lie along the axes; run with an "
-                  "orthogonal box (change_box all ortho), or write ff for pp to leave its images out",
-                  y ? "y" : "z"));
+  header.slanted = true;
+  if (y) header.periodic[1] = false;
+  if (z) header.periodic[2] = false;
+  const char* axes = y && z ? "y and z" : y ? "y" : "z";
+  warn(fmt::format(
+      "{}: the box is tilted and periodic along {}; fields repeat along the axes only, so images along {} "
+      "are left out; for them run with an orthogonal box (change_box all ortho)",
+      lines_.path().string(), axes, axes));
 }
 
 void DumpReader::read_units() {
@@ -362,7 +366,7 @@ void DumpReader::to_si(const Header& header, ParticleFrame& frame) {
   frame.step = header.step;
   frame.time = header.time * units_.time;
   frame.periodic = header.periodic;
-  if (header.has_bounds)
+  if (header.has_bounds && !header.slanted)  // a slanted box is no box of ours to repeat
     frame.bounds = Box{units_.length * header.bounds.lo, units_.length * header.bounds.hi};
 }
 

@@ -100,12 +100,16 @@ std::string_view trimmed(std::string_view line) {
   return line;
 }
 
+/// Does a comment name the columns as yade.export does? Further comments may follow it.
+bool has_format(const std::string& comment) { return comment.rfind("format ", 0) == 0; }
+
 class TableReader : public ParticleReader {
  public:
   TableReader(const std::filesystem::path& path, ReaderOptions options)
       : lines_(path), options_(std::move(options)) {}
 
   std::string kind() const override { return yade_ ? "YADE text" : "CSV"; }
+  std::int64_t frames() const override { return 1; }
   bool next(ParticleFrame& frame) override;
 
  private:
@@ -120,7 +124,8 @@ class TableReader : public ParticleReader {
   Separator separator_;
   ColumnMap map_;
   WrittenDigits digits_;
-  std::string comment_;  // the last comment line before the table, without its mark
+  std::string
+      comment_;  // the last comment line before the table (or the one with the format), without its mark
   bool yade_ = false;
   bool done_ = false;
 };
@@ -132,7 +137,7 @@ bool TableReader::next_line(std::string_view& line) {
     line = trimmed(line);
     if (line.empty()) continue;
     if (line.front() != '#') return true;
-    comment_ = trimmed(line.substr(1));
+    if (!has_format(comment_)) comment_ = trimmed(line.substr(1));
   }
   if (!lines_.damage().empty()) wrong(lines_.damage() + "; a whole file is needed; write it again");
   return false;
@@ -142,7 +147,7 @@ bool TableReader::next_line(std::string_view& line) {
 // and then x y z r; numpy.savetxt puts its header into a comment.
 std::vector<std::string> TableReader::names_in_comment(std::size_t cells) const {
   std::vector<std::string> names;
-  if (comment_.substr(0, 7) == "format ") {
+  if (has_format(comment_)) {
     for (const auto& name : split(std::string_view(comment_).substr(7), {'_'})) names.emplace_back(name);
     return names;
   }

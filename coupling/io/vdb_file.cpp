@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "coupling/io/atomic_file.h"
+#include "coupling/io/vdb_archive.h"
 
 namespace interstice::io {
 namespace {
@@ -48,12 +48,7 @@ void write_vdb(const std::filesystem::path& path, const voxel::Field& field,
   add(field.mass_density, "mass_density");
   add(field.void_fraction_averaged, "void_fraction_averaged");
   add(field.solid_fraction_averaged, "solid_fraction_averaged");
-  const openvdb::MetaMap meta = file_metadata(*grids.front());
-  write_atomically(path, [&](const std::filesystem::path& aside) {
-    openvdb::io::File file(aside.string());
-    file.write(grids, meta);
-    file.close();
-  });
+  write_grids(path, grids, file_metadata(*grids.front()));
 }
 
 }  // namespace interstice::io

@@ -118,7 +118,8 @@ std::int64_t LegacyReader::count_of(const Words& words, std::size_t at) const {
 void LegacyReader::read_header() {
   std::string_view line;
   if (!lines_.next(line)) cut("its header");
-  // "# vtk DataFile Version 3.0"; opening has seen all but the number
+  // "# vtk DataFile Version 3.0"; opening has seen all but the number. YADE ends it with a full stop
+  if (!line.empty() && line.back() == '.') line.remove_suffix(1);
   const auto version = split(line, {});
   double number = 0;
   if (version.size() < 5 || !parse_number(version[4], number)) {

@@ -99,6 +99,7 @@ QueuedFrame FrameQueue::read(Source& source) {
       ++source.at;
     }
     more = more && source.reader->next(result.frame);
+    result.position_resolution = source.reader->position_resolution();
     ++source.at;
     if (!more) result.error = source.input.path.string() + ": changed while it was read; run again";
   } catch (const std::bad_alloc&) {

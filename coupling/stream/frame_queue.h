@@ -34,6 +34,7 @@ struct QueuedFrame {
   std::size_t input = 0;
   std::int64_t number = 0;
   io::ParticleFrame frame;
+  double position_resolution = 0;  // [m], as its reader says
   std::string error;
 };
 

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "base/error.h"
-#include "coupling/io/atomic_file.h"
+#include "coupling/io/vdb_archive.h"
 #include "coupling/io/vti_file.h"
 
 namespace interstice::studies {
@@ -159,7 +159,7 @@ FieldDifference field_difference(const std::filesystem::path& a_path, const std:
 void write_difference(const std::filesystem::path& path_without_extension, const FieldDifference& difference,
                       const std::string& source) {
   const voxel::Field& field = difference.field;
-  openvdb::GridPtrVec grids;
+  openvdb::GridCPtrVec grids;
   for (const auto& grid : {field.void_fraction, field.solid_fraction, field.void_fraction_averaged,
                            field.solid_fraction_averaged}) {
     if (!grid) continue;
@@ -168,11 +168,7 @@ void write_difference(const std::filesystem::path& path_without_extension, const
   }
   auto path = path_without_extension;
   path += ".vdb";
-  io::write_atomically(path, [&](const std::filesystem::path& aside) {
-    openvdb::io::File file(aside.string());
-    file.write(grids);
-    file.close();
-  });
+  io::write_grids(path, grids, openvdb::MetaMap());
   if (!field.solid_fraction) return;  // the .vti writer wants both
   path = path_without_extension;
   path += ".vti";

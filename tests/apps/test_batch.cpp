@@ -126,6 +126,32 @@ TEST_F(Batch, SameFilesForAnyNumberOfThreads) {
   }
 }
 
+TEST_F(Batch, AStatedMemoryIsKeptToAndIsNoOtherBatch) {
+  const std::string inputs = file("a.dump", dump(3, 400));
+  const Outcome little = call(inputs + "-o " + out() + kPlain + "--memory 0.1MB");
+  EXPECT_EQ(little.status, 1);
+  EXPECT_NE(little.err.find("a.dump: frame 0: the field may need"), std::string::npos) << little.err;
+  EXPECT_NE(little.err.find("--memory allows 0.1 MB"), std::string::npos) << little.err;
+  EXPECT_EQ(call(inputs + "-o " + out() + kPlain + "--memory 1GB").status, 0);  // goes on
+  EXPECT_EQ(table_of(out() + "/table.csv").size(), 4u);
+  for (const char* wrong : {"4", "lots", "-1GB", "0GB", "3 m"}) {
+    const Outcome refused = call(inputs + "-o " + out("x") + kPlain + "--memory '" + wrong + "'");
+    EXPECT_EQ(refused.status, 2) << wrong;
+    EXPECT_NE(refused.err.find("--memory"), std::string::npos) << refused.err;
+  }
+}
+
+TEST_F(Batch, WarnsOnceAFileOfCoarselyWrittenPositions) {
+  std::string text = dump(3, 100);
+  const Outcome outcome =
+      call(file("a.csv", "x,y,z,radius\n0.0012,0.0013,0.0014,0.00002\n") + file("b.dump", text) + "-o " +
+           out() + " --voxel 20um --no-figures --quiet --json");
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const auto first = outcome.err.find("a.csv: positions are written to 100 um only");
+  ASSERT_NE(first, std::string::npos) << outcome.err;
+  EXPECT_EQ(outcome.err.find("positions are written", first + 40), std::string::npos) << outcome.err;
+}
+
 TEST_F(Batch, FinishedFramesAreSkippedAndOthersAreMade) {
   const std::string inputs = file("a.dump", dump(4, 300));
   ASSERT_EQ(call(inputs + "-o " + out() + kPlain).status, 0);

@@ -196,6 +196,33 @@ TEST_F(Run, AFullDiskIsAFailureWithOneLine) {
   EXPECT_NE(err.find("cannot write"), std::string::npos) << err;
 }
 
+// The same in the thread that writes fields: the run stops with the reason, and no half file has a name.
+TEST_F(Run, AFullDiskUnderTheFieldsIsAFailureWithOneLine) {
+  constexpr std::uintmax_t most = 300000;  // the .vdb and the .vti of the first field would be larger
+  const pid_t child = ::fork();
+  if (child == 0) {
+    const rlimit limit{most, most};
+    ::setrlimit(RLIMIT_FSIZE, &limit);
+    ::signal(SIGXFSZ, SIG_IGN);
+    ::_exit(call("run " + kScene + " -o " + at("run") + kSmall + "--set 'fields.bed.voxel=\"5 um\"'"));
+  }
+  int status = 0;
+  ::waitpid(child, &status, 0);
+  EXPECT_EQ(WEXITSTATUS(status), 1);
+  const std::string err = slurp(at("stderr"));
+  EXPECT_NE(err.find("cannot write " + at("run") + "/fields/bed_000000"), std::string::npos) << err;
+  for (const auto& file : fs::directory_iterator(at("run") + "/fields")) {
+    const std::string name = file.path().filename().string();
+    EXPECT_TRUE(name[0] == '.' || file.is_directory() || file.file_size() < most) << name;
+  }
+}
+
+TEST_F(Run, AFieldThatWouldNotFitIntoMemoryIsRefusedBeforeAnythingIsWritten) {
+  EXPECT_EQ(call("run " + kScene + " -o " + at("run") + kSmall + "--set 'fields.bed.voxel=\"0.05 um\"'"), 2);
+  EXPECT_NE(err_.find("fields: `bed` (10000 x 10000 x 6000 voxels) would need"), std::string::npos) << err_;
+  EXPECT_FALSE(fs::exists(at("run")));
+}
+
 TEST_F(Run, ReportsWhatItDid) {
   ASSERT_EQ(call("run " + kScene + " -o " + at("run") + kSmall + "--json"), 0) << err_;
   const Json printed = Json::parse(out_), written = Json::parse(slurp(at("run") + "/run.json"));

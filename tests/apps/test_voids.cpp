@@ -13,6 +13,7 @@
 #include "coupling/io/particle_reader.h"
 #include "coupling/io/trajectory.h"
 #include "tests/apps/command_test.h"
+#include "tests/coupling/io/edem_file.h"
 #include "tests/coupling/io/vti_decoding.h"
 
 namespace interstice::testing {
@@ -46,6 +47,58 @@ double sphere_volume(const std::string& sample_path, std::int64_t frame_number) 
   long double sum = 0;
   for (const double r : frame.radius) sum += static_cast<long double>(r) * r * r;
   return static_cast<double>(4 * 3.14159265358979323846264338327950288L / 3 * sum);
+}
+
+// Files that LIGGGHTS, LAMMPS and YADE wrote: the sum is that of the radii that they were given.
+TEST_F(Voids, TheSolidVolumeInFilesOfOtherProgramsIsThatOfTheirGrains) {
+  long double sum = 0;
+  for (int i = 0; i < 60; ++i) {
+    const long double r = 1e-5L + (i % 11) * 1e-6L;
+    sum += r * r * r;
+  }
+  const auto truth = static_cast<double>(4 * 3.14159265358979323846264338327950288L / 3 * sum);
+  std::string inputs;
+  const std::vector<std::string> stems{"liggghts",         "liggghts-scaled",         "liggghts-sixdigits",
+                                       "lammps-triclinic", "lammps-triclinic-scaled", "lammps-unwrapped",
+                                       "yade-mass"};
+  for (const char* name :
+       {"liggghts.dump", "liggghts-scaled.dump", "liggghts-sixdigits.dump.gz", "lammps-triclinic.dump",
+        "lammps-triclinic-scaled.dump.gz", "lammps-unwrapped.dump", "yade-mass.txt"})
+    inputs += sample(std::string("programs/") + name) + " ";
+  const Outcome outcome = call(inputs + to_out() + "--voxel 9um");
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  for (const std::string& stem : stems) {
+    const Json s = Json::parse(slurp(fs::path(out()) / stem / "summary.json"));
+    EXPECT_EQ(s["particles"], 60) << stem;
+    EXPECT_NEAR(s["solid_volume_particles_m3"].get<double>(), truth, 1e-14 * truth) << stem;
+    EXPECT_NEAR(s["solid_volume_field_m3"].get<double>(), truth, 1e-13 * truth) << stem;
+  }
+  // six digits are 1 nm here: fine for these voxels
+  EXPECT_EQ(outcome.err.find("positions are written to"), std::string::npos) << outcome.err;
+  EXPECT_NE(outcome.err.find("lammps-triclinic.dump: the box is tilted and periodic along y"),
+            std::string::npos);
+}
+
+// Both end in .h5: results of EDEM, and our own checkpoints.
+TEST_F(Voids, InfoKnowsEdemFilesFromCheckpoints) {
+  io::testing::EdemFile(folder_ / "edem.h5").fill(true, 1);
+  const Outcome edem = interstice("info " + at("edem.h5") + " --json");
+  ASSERT_EQ(edem.status, 0) << edem.err;
+  EXPECT_EQ(Json::parse(edem.out)["particles_last_frame"], 3);
+  std::ofstream(folder_ / "none.h5") << "no HDF5";
+  const Outcome none = interstice("info " + at("none.h5"));
+  EXPECT_NE(none.status, 0);
+  EXPECT_NE(none.err.find("none.h5"), std::string::npos) << none.err;
+}
+
+TEST_F(Voids, SingleIsSaidAndKeepsTheVolume) {
+  const Outcome outcome = call(sample("two-frames.dump") + to_out() + "--voxel 17um --precision mixed");
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const Json s = Json::parse(slurp(fs::path(out()) / "two-frames" / "summary.json"));
+  EXPECT_EQ(s["method"], "exact, single");
+  const double error = s["relative_conservation_error"].get<double>();
+  EXPECT_GT(error, 1e-13);  // not double
+  EXPECT_LE(error, 1e-6);
 }
 
 TEST_F(Voids, LastFrameOfADumpWithAllFiles) {

@@ -121,6 +121,33 @@ TEST_F(Readers, DumpTiltedBoxMayBePeriodicAlongAnEdgeThatLiesOnItsAxis) {
   EXPECT_EQ(*upright[0].bounds, (Box{{0, -1e-4, 0}, {2e-4, 1e-4, 3e-4}}));
 }
 
+// What LAMMPS writes for a sheared periodic box is read; the period that is slanted is none of ours.
+TEST_F(Readers, DumpSlantedPeriodsAreLeftOutAndWarnedOf) {
+  for (const auto& [bounds, axis] : {std::pair{"pp pp ff\n0 3e-4 1e-4\n-1e-4 1e-4 0\n0 3e-4 0\n", "along y;"},
+                                     {"pp pp pp\n0 3e-4 0\n-1e-4 1e-4 1e-4\n0 3e-4 0\n", "along z;"}}) {
+    const std::string line(bounds);
+    const auto path = write("a.dump", replaced(replaced(small_dump, "BOX BOUNDS pp ff ss",
+                                                        "BOX BOUNDS xy xz yz " + line.substr(0, 8)),
+                                               "0 2e-4\n-1e-4 1e-4\n0 3e-4\n", line.substr(9)));
+    const auto reader = open_particles(path, {});
+    ParticleFrame frame;
+    ASSERT_TRUE(reader->next(frame)) << bounds;
+    EXPECT_TRUE(frame.periodic[0]);
+    EXPECT_FALSE(frame.periodic[std::string(axis) == "along y;" ? 1 : 2]);
+    EXPECT_FALSE(frame.bounds.has_value());  // so that --periodic asks for a --box
+    ASSERT_EQ(reader->warnings().size(), 1U);
+    EXPECT_NE(reader->warnings()[0].find(axis), std::string::npos) << reader->warnings()[0];
+  }
+}
+
+TEST_F(Readers, YadeTextMayHaveCommentsBehindItsFormat) {
+  const auto frames =
+      read_all(write("a.txt", "#format x_y_z_r_matId\n# x y z a b\n# at rest\n1\t2\t3\t0.5\t0\n"));
+  ASSERT_EQ(frames.size(), 1U);
+  EXPECT_EQ(frames[0].z[0], 3);
+  EXPECT_EQ(frames[0].radius[0], 0.5);
+}
+
 TEST_F(Readers, DumpUnwrappedFractionsOfTheBoxAreUnscaled) {
   const auto text = replaced(small_dump, "diameter y x z", "diameter ysu xsu zsu");
   const auto frames =

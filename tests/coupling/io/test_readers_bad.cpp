@@ -71,10 +71,6 @@ TEST_F(BadFiles, DumpBoundariesAndTilts) {
   };
   expect_error(with("ITEM: BOX BOUNDS ff ff\n0 1\n0 1\n0 1\n"), "a.dump:5", "kinds of boundary");
   expect_error(with("ITEM: BOX BOUNDS ff ff qq\n0 1\n0 1\n0 1\n"), "a.dump:5", "kinds of boundary");
-  const auto slanted = with("ITEM: BOX BOUNDS xy xz yz ff pp ff\n0 2 0.5\n0 1 0\n0 1 0\n");
-  expect_error(slanted, "a.dump:8: frame 0", "tilted and periodic along y");
-  expect_error(slanted, "a.dump:8", "change_box all ortho");
-  expect_error(with("ITEM: BOX BOUNDS xy xz yz ff ff pp\n0 2 0\n0 1 0\n0 1 0.5\n"), "a.dump:8", "along z");
   expect_error(with("ITEM: BOX BOUNDS xy xz yz ff ff ff\n0 2 5\n0 1 0\n0 1 0\n"), "a.dump:8", "no width");
   expect_error(with("ITEM: BOX BOUNDS xy xz yz ff ff ff\n0 2\n0 1 0\n0 1 0\n"), "a.dump:6", "box bounds");
 }

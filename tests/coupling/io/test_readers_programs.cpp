@@ -2,7 +2,7 @@
 // change each.
 #include <random>
 
-#include "coupling/io/hdf5_handles.h"
+#include "edem_file.h"
 #include "reader_testing.h"
 
 namespace interstice::io::testing {
@@ -133,47 +133,6 @@ TEST_F(ProgramFiles, BadEdem) {
   expect_error(error_of(write("b.csv", std::string(small_edem).substr(0, 20))), "b.csv:", "; ");
 }
 
-/// An EDEM file of two types of particle in one time step, as the reader's header describes it.
-struct EdemFile {
-  std::filesystem::path path;
-  Hdf5Handle file;
-
-  explicit EdemFile(const std::filesystem::path& where) : path(where) {
-    file = Hdf5Handle(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT), H5Fclose, "creating");
-    const Hdf5Handle links(H5Pcreate(H5P_LINK_CREATE), H5Pclose, "links");
-    H5Pset_create_intermediate_group(links, 1);
-    for (const char* name : {"/CreatorData/0/ParticleTypes/0/Spheres", "/CreatorData/0/ParticleTypes/1",
-                             "/TimestepData/7/ParticleTypes/0", "/TimestepData/7/ParticleTypes/1"}) {
-      Hdf5Handle(H5Gcreate2(file, name, links, H5P_DEFAULT, H5P_DEFAULT), H5Gclose, name);
-    }
-  }
-  void table(const char* name, const std::vector<double>& values, hsize_t columns, hid_t type) {
-    const std::array<hsize_t, 2> size{values.size() / columns, columns};
-    const Hdf5Handle space(H5Screate_simple(columns > 1 ? 2 : 1, size.data(), nullptr), H5Sclose, "space");
-    const Hdf5Handle set(H5Dcreate2(file, name, type, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Dclose,
-                         name);
-    checked(H5Dwrite(set, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()), name);
-  }
-  void attribute(const char* group, const char* name, double value) {
-    const Hdf5Handle object(H5Gopen2(file, group, H5P_DEFAULT), H5Gclose, group);
-    write_attribute(object, name, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, &value, 1);
-  }
-  void fill(bool radii, double scale) {
-    attribute("/TimestepData/7", "time", 0.125);
-    if (radii) attribute("/CreatorData/0/ParticleTypes/0/Spheres", "rawRadius", 0.01);
-    attribute("/CreatorData/0/ParticleTypes/1", "physicalRadius", 0.02);
-    table("/TimestepData/7/ParticleTypes/0/position", {0.1, 0.2, 0.3, 0.4, 0.5, 0.6}, 3, H5T_IEEE_F64LE);
-    table("/TimestepData/7/ParticleTypes/0/ids", {3, 1}, 1, H5T_STD_I32LE);
-    table("/TimestepData/7/ParticleTypes/0/scale", {scale, 0.5}, 1, H5T_IEEE_F64LE);
-    table("/TimestepData/7/ParticleTypes/0/velocity", {1, 2, 3, 4, 5, 6}, 3, H5T_IEEE_F64LE);
-    table("/TimestepData/7/ParticleTypes/1/position", {0.7, 0.8, 0.9}, 3, H5T_IEEE_F32LE);
-    table("/TimestepData/7/ParticleTypes/1/ids", {2}, 1, H5T_STD_I64LE);
-    table("/TimestepData/7/ParticleTypes/1/scale", {1}, 1, H5T_IEEE_F64LE);
-    table("/TimestepData/7/ParticleTypes/1/velocity", {7, 8, 9}, 3, H5T_IEEE_F64LE);
-    file.close("closing");
-  }
-};
-
 TEST_F(ProgramFiles, EdemHdf5AsDescribed) {
   EdemFile edem(folder_ / "a.h5");
   edem.fill(true, 2);
@@ -242,6 +201,73 @@ TEST_F(ProgramFiles, DamagedEdemHdf5IsReadOrRefused) {
     refused += is_read(bytes) ? 0 : 1;
   }
   EXPECT_GT(refused, 50);
+}
+
+/// The 60 grains of data/samples/programs after `t` seconds of free fall, by the formulas of grains.awk.
+ParticleFrame falling(double t) {
+  ParticleFrame f;
+  for (int i = 0; i < 60; ++i) {
+    f.id.push_back(i + 1);
+    f.x.push_back(4e-5 + (i % 5) * 6e-5 + (i * 7 % 13) * 5.1234e-7 + 0.01 * t);
+    f.y.push_back(4e-5 + (i / 5 % 4) * 6e-5 + (i * 5 % 11) * 5.4321e-7 + 0.005 * t);
+    f.z.push_back(4e-5 + (i / 20) * 6e-5 + (i * 3 % 7) * 5.0123e-7 - 0.5 * 9.81 * t * t);
+    f.radius.push_back(1e-5 + (i % 11) * 1e-6);
+  }
+  return f;
+}
+
+void expect_grains(const ParticleFrame& frame, double t, double tolerance, const std::string& name) {
+  const ParticleFrame expected = falling(t);
+  ASSERT_EQ(frame.size(), 60U) << name;
+  for (std::size_t i = 0; i < 60; ++i) {
+    EXPECT_NEAR(frame.x[i], expected.x[i], tolerance) << name;
+    EXPECT_NEAR(frame.y[i], expected.y[i], tolerance) << name;
+    EXPECT_NEAR(frame.z[i], expected.z[i], tolerance) << name;
+    EXPECT_NEAR(frame.radius[i], expected.radius[i], 1e-18) << name;  // as written: six digits hold them
+  }
+}
+
+struct Written {
+  const char* name;
+  std::size_t frames;
+  double start, interval;  // [s]
+  double tolerance;        // [m] of positions: what the digits in the file leave
+};
+
+// 2,000 steps, each rounding a position of 3e-4 m by half a unit in the last place; 15 digits are finer.
+constexpr double kSummed = 2000 * 2.8e-20;
+
+// Files that LIGGGHTS, LAMMPS and YADE wrote themselves.
+TEST_F(ProgramFiles, OfTheRealProgramsHoldTheGrainsThatTheyWereGiven) {
+  for (const Written& w : {Written{"liggghts.dump", 3, 0, 1e-4, kSummed},
+                           {"liggghts-scaled.dump", 2, 0, 2e-4, kSummed},
+                           {"liggghts-sixdigits.dump.gz", 3, 0, 1e-4, 5.01e-10},
+                           {"liggghts.vtk", 1, 2e-4, 0, 5.01e-10},
+                           {"lammps-triclinic.dump", 3, 0, 1e-4, kSummed},
+                           {"lammps-triclinic-scaled.dump.gz", 2, 0, 2e-4, kSummed},
+                           {"lammps-unwrapped.dump", 2, 0, 2e-4, kSummed},
+                           {"yade.txt", 1, 0, 0, 5.01e-10},
+                           {"yade-mass.txt", 1, 0, 0, 5.01e-10},
+                           {"yade.vtk", 1, 0, 0, 5.01e-10}}) {
+    const auto frames = read_all(sample(std::string("programs/") + w.name));
+    ASSERT_EQ(frames.size(), w.frames) << w.name;
+    for (std::size_t k = 0; k < frames.size(); ++k)
+      expect_grains(frames[k], w.start + static_cast<double>(k) * w.interval, w.tolerance, w.name);
+  }
+}
+
+TEST_F(ProgramFiles, OfTheRealProgramsHaveTheirOtherColumns) {
+  const auto liggghts = read_all(sample("programs/liggghts.dump"));
+  EXPECT_EQ(liggghts[2].step, 2000);
+  EXPECT_EQ(liggghts[2].density, std::vector<double>(60, 7800));
+  EXPECT_NEAR(liggghts[2].vz[0], -9.81 * 2e-4, 1e-15);
+  const auto lammps = read_all(sample("programs/lammps-triclinic.dump"));
+  EXPECT_DOUBLE_EQ(lammps[1].time, 1e-4);  // ITEM: TIME, which dump_modify time yes writes
+  EXPECT_EQ(lammps[1].periodic, (std::array<bool, 3>{true, false, false}));
+  const auto reader = open_particles(sample("programs/liggghts-sixdigits.dump.gz"), {});
+  ParticleFrame frame;
+  ASSERT_TRUE(reader->next(frame));
+  EXPECT_DOUBLE_EQ(reader->position_resolution(), 1e-9);  // 0.000104000 is told from 0.000104001
 }
 
 }  // namespace

@@ -1,0 +1,35 @@
+#include "coupling/io/vdb_archive.h"
+
+#include <fmt/format.h>
+#include <openvdb/io/Archive.h>
+
+#include <fstream>
+
+#include "base/error.h"
+#include "coupling/io/atomic_file.h"
+
+namespace interstice::io {
+namespace {
+
+class Archive : public openvdb::io::Archive {
+ public:
+  void write_to(std::ostream& out, const openvdb::GridCPtrVec& grids,
+                const openvdb::MetaMap& metadata) const {
+    constexpr bool seekable = true;  // with the offsets that File::readGrid jumps by
+    openvdb::io::Archive::write(out, grids, seekable, metadata);
+  }
+};
+
+}  // namespace
+
+void write_grids(const std::filesystem::path& path, const openvdb::GridCPtrVec& grids,
+                 const openvdb::MetaMap& metadata) {
+  write_atomically(path, [&](const std::filesystem::path& aside) {
+    std::ofstream out(aside, std::ios::binary | std::ios::trunc);
+    Archive().write_to(out, grids, metadata);
+    out.close();
+    if (!out) throw RunError(fmt::format("cannot write {}: the disk may be full", path.string()));
+  });
+}
+
+}  // namespace interstice::io

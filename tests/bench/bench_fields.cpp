@@ -1,0 +1,254 @@
+// How fast fields are, from positions to finished OpenVDB grids, as the tables of docs/PERFORMANCE.md:
+//   bench_fields throughput [SPHERES]   exact in double and in single beside the straightforward way
+//   bench_fields scaling [MOST]         time and memory from 1,000 to MOST (10,000,000) spheres
+//   bench_fields ratios                 one sphere of R/h from 0.001 to 1,000
+// Diameters are normal by number, mean 39.4 um, sd 10.5 um, cut to 5 to 65 um; voxels are 17.3 um. What is
+// compared is run in turns, so that a machine's changing speed touches all alike; a row is the median of the
+// rounds, and the fastest.
+#include <fmt/format.h>
+#include <openvdb/openvdb.h>
+#include <tbb/global_control.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstring>
+#include <ctime>
+#include <fstream>
+#include <functional>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "base/random.h"
+#include "voxel/field.h"
+#include "voxel/overlap.h"
+#include "voxel/small_spheres.h"
+
+namespace {
+
+using namespace interstice;
+using voxel::Field;
+using voxel::FieldRequest;
+
+constexpr double kVoxel = 17.3e-6;
+
+struct Bed {
+  std::vector<double> x, y, z, radius;
+  Box box;
+
+  std::size_t size() const { return radius.size(); }
+  voxel::SpheresView view() const {
+    return {radius.size(), x.data(), y.data(), z.data(), radius.data(), nullptr};
+  }
+};
+
+/// Random positions in a layer 0.3 mm high that the spheres would fill to a solid fraction of 0.45. They
+/// overlap, which costs the field no more and no less than if they did not.
+Bed make_bed(std::size_t count) {
+  Bed bed;
+  double volume = 0;
+  Random random(4, 0);
+  while (bed.size() < count) {
+    const double normal =
+        std::sqrt(-2 * std::log(random.uniform())) * std::cos(2 * std::numbers::pi * random.uniform());
+    const double diameter = 39.4e-6 + 10.5e-6 * normal;
+    if (diameter < 5e-6 || diameter > 65e-6) continue;
+    bed.radius.push_back(0.5 * diameter);
+    volume += std::numbers::pi / 6 * diameter * diameter * diameter;
+  }
+  const double height = 0.3e-3, area = volume / (0.45 * height), width = std::sqrt(area / 2.6);
+  bed.box = {{0, 0, 0}, {area / width, width, height}};
+  for (const double r : bed.radius) {
+    bed.x.push_back(random.uniform(r, bed.box.hi.x - r));
+    bed.y.push_back(random.uniform(r, width - r));
+    bed.z.push_back(random.uniform(r, height - r));
+  }
+  return bed;
+}
+
+FieldRequest request_for(const Bed& bed, voxel::Precision precision = voxel::Precision::real64) {
+  FieldRequest request;
+  request.lattice = voxel::cubic_lattice(bed.box, kVoxel);
+  request.precision = precision;
+  return request;
+}
+
+/// One sphere at a time, voxel by voxel through an accessor: the same formula, as one would write it first.
+openvdb::FloatGrid::Ptr straightforward(const Bed& bed, const voxel::Lattice& lattice) {
+  auto grid = openvdb::FloatGrid::create(0.0f);
+  auto cells = grid->getAccessor();
+  const double cell = lattice.cell_volume();
+  for (std::size_t s = 0; s < bed.size(); ++s) {
+    voxel::for_each_overlap(lattice, {bed.x[s], bed.y[s], bed.z[s]}, bed.radius[s], voxel::all_cells(lattice),
+                            [&](std::int64_t i, std::int64_t j, std::int64_t k, double volume) {
+                              const openvdb::Coord at(static_cast<int>(i), static_cast<int>(j),
+                                                      static_cast<int>(k));
+                              cells.setValue(at, cells.getValue(at) + static_cast<float>(volume / cell));
+                            });
+  }
+  return grid;
+}
+
+double wall_seconds(const std::function<void()>& work) {
+  const auto begin = std::chrono::steady_clock::now();
+  work();
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+}
+
+/// Seconds of the wall clock and of all processors, of one call.
+struct Seconds {
+  double wall = 0, processor = 0;
+};
+Seconds timed(const std::function<void()>& work) {
+  Seconds seconds;
+  const std::clock_t begin = std::clock();
+  seconds.wall = wall_seconds(work);
+  seconds.processor = static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
+  return seconds;
+}
+
+struct Spread {
+  double median, least;
+};
+Spread spread_of(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  return {values[values.size() / 2], values.front()};
+}
+
+template <class Work>
+void on_threads(int threads, const Work& work) {
+  const tbb::global_control control(tbb::global_control::max_allowed_parallelism,
+                                    static_cast<std::size_t>(threads));
+  work();
+}
+
+void throughput(std::size_t count) {
+  const Bed bed = make_bed(count);
+  struct Case {
+    const char* name;
+    int threads;
+    std::function<void()> work;
+    std::vector<double> wall, processor;
+  };
+  const auto field = [&](voxel::Precision precision) {
+    return [&bed, precision] { voxel::compute_field(bed.view(), {}, request_for(bed, precision)); };
+  };
+  std::vector<Case> cases{
+      {"straightforward", 1, [&] { straightforward(bed, request_for(bed).lattice); }, {}, {}},
+      {"exact", 1, field(voxel::Precision::real64), {}, {}},
+      {"exact, single", 1, field(voxel::Precision::mixed), {}, {}},
+      {"exact", 2, field(voxel::Precision::real64), {}, {}},
+      {"exact, single", 2, field(voxel::Precision::mixed), {}, {}}};
+  for (int round = 0; round < 21; ++round)
+    for (Case& c : cases)
+      on_threads(c.threads, [&] {
+        const Seconds seconds = timed(c.work);
+        c.wall.push_back(seconds.wall);
+        c.processor.push_back(seconds.processor);
+      });
+  const double n = static_cast<double>(count);
+  fmt::print("{} spheres, voxels of {:g} um, kernel for {}\n\n", count, 1e6 * kVoxel,
+             voxel::small_spheres_target());
+  fmt::print(
+      "| way | threads | ms a frame: median (least) | processor ms: median (least) | M spheres/s: median "
+      "(most) |\n");
+  fmt::print("|---|---|---|---|---|\n");
+  for (const Case& c : cases) {
+    const Spread wall = spread_of(c.wall), processor = spread_of(c.processor);
+    fmt::print("| {} | {} | {:.1f} ({:.1f}) | {:.1f} ({:.1f}) | {:.2f} ({:.2f}) |\n", c.name, c.threads,
+               1e3 * wall.median, 1e3 * wall.least, 1e3 * processor.median, 1e3 * processor.least,
+               1e-6 * n / wall.median, 1e-6 * n / wall.least);
+  }
+}
+
+/// VmRSS or VmHWM of this process [bytes].
+double memory(const char* key) {
+  std::ifstream in("/proc/self/status");
+  for (std::string line; std::getline(in, line);) {
+    if (line.rfind(key, 0) == 0) return 1024 * std::stod(line.substr(std::strlen(key) + 1));
+  }
+  return NAN;
+}
+void forget_peak() { std::ofstream("/proc/self/clear_refs") << "5"; }
+
+void scaling(std::size_t most) {
+  fmt::print(
+      "| spheres | ns a sphere (processor) | leaves | peak above the columns, MB | kB a leaf "
+      "|\n|---|---|---|---|---|\n");
+  for (std::size_t count = 1000; count <= most; count *= 10) {
+    const Bed bed = make_bed(count);
+    const FieldRequest request = request_for(bed);
+    std::vector<double> each;
+    double peak = 0;
+    std::size_t leaves = 0;
+    const int rounds = count < 100'000 ? 9 : count < 10'000'000 ? 3 : 1;
+    for (int round = 0; round < rounds; ++round) {
+      forget_peak();
+      const double before = memory("VmRSS");
+      on_threads(1, [&] {
+        const Seconds seconds = timed([&] {
+          const Field field = voxel::compute_field(bed.view(), {}, request);
+          leaves = field.solid_fraction->tree().leafCount();
+        });
+        each.push_back(seconds.processor / static_cast<double>(count));
+      });
+      if (round == 0) peak = memory("VmHWM") - before;
+    }
+    fmt::print("| {} | {:.0f} | {} | {:.1f} | {:.1f} |\n", count, 1e9 * spread_of(each).median, leaves,
+               1e-6 * peak, 1e-3 * peak / static_cast<double>(leaves));
+  }
+}
+
+/// Voxels that the surface of a sphere passes: those with a share between none and all.
+std::size_t surface_voxels(const openvdb::FloatGrid& grid) {
+  std::size_t count = 0;
+  for (auto at = grid.cbeginValueOn(); at; ++at)
+    if (at.isVoxelValue() && *at > 0 && *at < 1) ++count;
+  return count;
+}
+
+void ratios() {
+  fmt::print(
+      "| R/h | surface voxels | ns a surface voxel | leaves | tiles | off in volume "
+      "|\n|---|---|---|---|---|---|\n");
+  for (const double ratio : {1e-3, 1e-2, 0.1, 1.0, 3.0, 10.0, 30.0, 100.0, 300.0, 1000.0}) {
+    const double radius = ratio * kVoxel;
+    const double half = std::ceil(ratio + 1) * kVoxel;
+    const Vec3d at{0.31 * kVoxel, -0.17 * kVoxel, 0.23 * kVoxel};
+    FieldRequest request;
+    request.lattice = voxel::cubic_lattice({{-half, -half, -half}, {half, half, half}}, kVoxel);
+    const int repeat = ratio <= 10 ? 200 : 1;
+    Field field;
+    double seconds = 0;
+    on_threads(1, [&] {
+      const std::clock_t begin = std::clock();
+      for (int r = 0; r < repeat; ++r)
+        field = voxel::compute_field({1, &at.x, &at.y, &at.z, &radius, nullptr}, {}, request);
+      seconds = static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC / repeat;
+    });
+    const auto& tree = field.solid_fraction->tree();
+    const std::size_t surface = surface_voxels(*field.solid_fraction);
+    fmt::print("| {:g} | {} | {:.0f} | {} | {} | {:.1e} |\n", ratio, surface,
+               1e9 * seconds / static_cast<double>(surface), tree.leafCount(), tree.activeTileCount(),
+               std::abs(field.sums.solid_volume_field / field.sums.solid_volume_particles - 1));
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const std::string what = argc > 1 ? argv[1] : "";
+  const std::size_t count = argc > 2 ? std::strtoull(argv[2], nullptr, 10) : 0;
+  openvdb::initialize();
+  if (what == "throughput")
+    throughput(count ? count : 35'000);
+  else if (what == "scaling")
+    scaling(count ? count : 10'000'000);
+  else if (what == "ratios")
+    ratios();
+  else {
+    fmt::print(stderr, "usage: bench_fields throughput [SPHERES] | scaling [MOST] | ratios\n");
+    return 2;
+  }
+}
