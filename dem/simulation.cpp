@@ -191,14 +191,19 @@ void Simulation::rebuild_if_needed() {
   }
 }
 
-/// A skin that lasts some 120 steps at the present speed. Bits do not depend on it, only speed does.
-double Simulation::choose_skin(const std::vector<GrainSite>& sites) const {
-  if (options_.skin > 0) return options_.skin;
+/// Lists that last: the near pairs some 30 steps at the present speed, the candidates four times as long. Bits
+/// do not depend on it, only speed does.
+void Simulation::choose_gaps(const std::vector<GrainSite>& sites) {
   double radius_sum = 0, fastest = fastest_;
   for (const GrainSite& g : sites) radius_sum += g.radius;
   for (const WallMotion& m : motion_of_wall_) fastest = std::max(fastest, norm(m.velocity));
   const double diameter = sites.empty() ? 0 : 2 * radius_sum / static_cast<double>(sites.size());
-  return std::clamp(240 * fastest * dt_, 0.04 * diameter, 0.4 * diameter);
+  near_gap_ = std::clamp(60 * fastest * dt_, 0.002 * diameter, 0.1 * diameter);
+  skin_ = std::max(4 * near_gap_, 0.04 * diameter);
+  if (options_.skin > 0) {
+    skin_ = options_.skin;
+    near_gap_ = 0.25 * skin_;
+  }
 }
 
 SearchSpace Simulation::search_space() const {
@@ -244,8 +249,7 @@ void Simulation::rebuild() {
   std::vector<GrainSite> sites = grains_.sites();
   double largest = 0;
   for (const GrainSite& g : sites) largest = std::max(largest, g.radius);
-  skin_ = choose_skin(sites);
-  near_gap_ = kNearGap * skin_;
+  choose_gaps(sites);
   check_periodic_lengths(largest);
   std::vector<std::uint32_t> slot_of_id(static_cast<std::size_t>(next_id_), PairContacts::kNoSlot);
   for (std::uint32_t s = 0; s < built_ids_.size(); ++s)

@@ -126,7 +126,7 @@ class Simulation {
   void remove_leavers();
   void rebuild_if_needed();
   void rebuild();
-  double choose_skin(const std::vector<GrainSite>& sites) const;
+  void choose_gaps(const std::vector<GrainSite>& sites);
   void check_periodic_lengths(double largest) const;
   void sort_grains(std::vector<GrainSite>& sites);
   void refresh(const std::vector<std::uint32_t>& old_slot, const std::vector<GrainSite>& sites);
