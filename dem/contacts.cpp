@@ -71,7 +71,7 @@ PairContacts::PairContacts(const KeptMemories& kept, Precision precision)
     : kept_(kept),
       sliding_(precision),
       rolling_(precision),
-      end_forces_(precision),
+      forces_(precision),
       ring_forces_(precision),
       kept_forces_(precision),
       end_reals_(precision == Precision::mixed ? kEndReals<float> : kEndReals<double>) {}
@@ -97,7 +97,7 @@ void PairContacts::replace(const std::vector<PairRef>& found, const std::vector<
                            const std::vector<std::uint32_t>& old_slot, const Parts& parts) {
   const std::vector<GroupBits> old_bits = std::move(bits_);
   Reals old_sliding = std::move(sliding_), old_rolling = std::move(rolling_);
-  const OldEnds old_ends{std::move(pairs_), std::move(all_.first), std::move(pair_of_end_)};
+  const OldEnds old_ends{std::move(pairs_), std::move(first_end_), std::move(pair_of_end_)};
   pairs_ = {};
   place_pairs(found, order_pairs(found, parts, kept_.heat));
   if (kept_.sliding) sliding_.reset(kSpringReals * pairs_.size());
@@ -118,17 +118,17 @@ void PairContacts::replace(const std::vector<PairRef>& found, const std::vector<
       if (kept_.rolling) copy_spring(old_rolling, from, rolling_, k);
     }
   });
-  build_adjacency(sites);
-  ring_ = make_ring(sweep_, pairs_, all_);
-  ring_forces_.reset((ring_.places.places + kEndsAtOnce) * end_reals_);  // collecting reads on
-  kept_forces_.reset(ring_.kept * end_reals_ + 1);
-  end_forces_.reset(0);
+  ring_ = make_ring(sweep_, pairs_, first_end_, build_adjacency(sites));
+  ring_forces_.reset((ring_.places + kEndsAtOnce) * end_reals_);  // collecting reads on
+  kept_forces_.reset(ring_.kept * end_reals_);
+  forces_.reset(0);
   if (kept_.heat) heat_.assign(pairs_.size(), {});
 }
 
 Vec3d PairContacts::force(std::size_t k) const {
-  const std::size_t at = all_.of_pair[k].a * end_reals_;
-  return keeps_forces() ? Vec3d{end_forces_[at], end_forces_[at + 1], end_forces_[at + 2]} : Vec3d{0, 0, 0};
+  if (forces_.empty()) return {0, 0, 0};
+  const auto number = [&](std::size_t n) { return forces_[(k / kLanes * 3 + n) * kLanes + k % kLanes]; };
+  return {number(0), number(1), number(2)};
 }
 
 TangentialSpring<double> PairContacts::sliding(std::size_t k) const { return spring_at(sliding_, k); }
@@ -142,32 +142,26 @@ void PairContacts::set_touching(std::size_t k, const TangentialSpring<double>& s
   if (kept_.rolling) set_spring(rolling_, k, rolling);
 }
 
-void PairContacts::keep_forces(bool all) {
-  const std::size_t n = all ? (all_.places + kEndsAtOnce) * end_reals_ : 0;
-  if (end_forces_.size() != n) end_forces_.reset(n);
+void PairContacts::keep_forces(bool keep) {
+  const std::size_t n = keep ? 3 * pairs_.size() : 0;
+  if (forces_.size() != n) forces_.reset(n);
 }
 
 PairView PairContacts::view() {
-  const bool all = keeps_forces();
-  return {bits_.size(),
-          pairs_.data(),
-          all ? all_.of_pair.data() : ring_.places.of_pair.data(),
-          bits_.data(),
-          sliding_.empty() ? nullptr : sliding_.data(),
-          rolling_.empty() ? nullptr : rolling_.data(),
-          all ? end_forces_.data() : ring_forces_.data(),
-          heat_.empty() ? nullptr : heat_.data()};
+  const auto data = [](Reals& reals) { return reals.empty() ? nullptr : reals.data(); };
+  return {bits_.size(),        pairs_.data(),  ring_.of_pair.data(),
+          bits_.data(),        data(sliding_), data(rolling_),
+          ring_forces_.data(), data(forces_),  heat_.empty() ? nullptr : heat_.data()};
 }
 
 PairView PairContacts::shared_view() {
   PairView v = view();
-  if (!keeps_forces()) v.end_forces = kept_forces_.data();
+  v.end_forces = kept_forces_.data();
   return v;
 }
 
 void PairContacts::fetch_shared(std::size_t block) {
-  if (keeps_forces()) return;
-  for (std::uint32_t i = ring_.first[block]; i < ring_.first[block + 1]; ++i) {
+  for (std::uint32_t i = ring_.of_block[block]; i < ring_.of_block[block + 1]; ++i) {
     const SharedEnd& end = ring_.shared[i];
     for (std::size_t n = 0; n < end_reals_; ++n)
       ring_forces_.set(end.place * end_reals_ + n, kept_forces_[end.kept * end_reals_ + n]);
@@ -175,18 +169,17 @@ void PairContacts::fetch_shared(std::size_t block) {
 }
 
 std::size_t PairContacts::bytes() const {
-  return bytes_of(pairs_) + bytes_of(all_.of_pair) + bytes_of(ring_.places.of_pair) + bytes_of(bits_) +
-         sliding_.bytes() + rolling_.bytes() + end_forces_.bytes() + bytes_of(heat_) + ring_forces_.bytes() +
-         kept_forces_.bytes() + bytes_of(all_.first) + bytes_of(ring_.places.first) + bytes_of(ring_.shared) +
+  return bytes_of(pairs_) + bytes_of(bits_) + bytes_of(ring_.first) + bytes_of(ring_.of_pair) +
+         bytes_of(ring_.shared) + sliding_.bytes() + rolling_.bytes() + forces_.bytes() +
+         ring_forces_.bytes() + kept_forces_.bytes() + bytes_of(heat_) + bytes_of(first_end_) +
          bytes_of(pair_of_end_);
 }
 
 std::size_t WallContacts::bytes() const { return bytes_of(entries) + bytes_of(first_); }
 
-void PairContacts::build_adjacency(const std::vector<GrainSite>& sites) {
-  const auto trash = static_cast<std::uint32_t>(2 * listed_);  // where empty places put their forces
+std::vector<PairEnds> PairContacts::build_adjacency(const std::vector<GrainSite>& sites) {
   const auto listed = [&](std::size_t k) { return (bits_[k / kLanes].listed >> k % kLanes & 1) != 0; };
-  std::vector<std::uint32_t>& first = all_.first;
+  std::vector<std::uint32_t>& first = first_end_;
   first.assign(sites.size() + 1, 0);
   for (std::size_t k = 0; k < pairs_.size(); ++k) {
     if (!listed(k)) continue;
@@ -195,9 +188,7 @@ void PairContacts::build_adjacency(const std::vector<GrainSite>& sites) {
   }
   for (std::size_t s = 1; s < first.size(); ++s) first[s] += first[s - 1];
   resize_tightly(pair_of_end_, 2 * listed_);
-  resize_tightly(all_.of_pair, pairs_.size());
-  std::fill(all_.of_pair.begin(), all_.of_pair.end(), PairEnds{trash, trash});
-  all_.places = 2 * listed_ + 1;
+  std::vector<PairEnds> ends_of_pair(pairs_.size(), {0, 0});
   std::vector<std::uint32_t> next(first.begin(), first.end() - 1);
   for (std::uint32_t k = 0; k < pairs_.size(); ++k) {
     if (!listed(k)) continue;
@@ -212,11 +203,12 @@ void PairContacts::build_adjacency(const std::vector<GrainSite>& sites) {
       std::sort(pair_of_end_.begin() + first[s], pair_of_end_.begin() + first[s + 1],
                 [&](std::uint32_t l, std::uint32_t r) { return partner(l) < partner(r); });
       for (std::uint32_t e = first[s]; e < first[s + 1]; ++e) {
-        PairEnds& ends = all_.of_pair[pair_of_end_[e]];
+        PairEnds& ends = ends_of_pair[pair_of_end_[e]];
         (pairs_[pair_of_end_[e]].a == s ? ends.a : ends.b) = e;
       }
     }
   });
+  return ends_of_pair;
 }
 
 void WallContacts::replace(const std::vector<GrainSite>& sites, const std::vector<Shape>& walls, double reach,

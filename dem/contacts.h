@@ -70,6 +70,7 @@ struct PairView {
   void* sliding;
   void* rolling;
   void* end_forces;
+  void* forces;  // on the first grains, by group, axis and lane; null unless asked for
   PairHeat* heat;
 };
 
@@ -106,8 +107,8 @@ class PairContacts {
   /// was made.
   auto of(std::size_t slot) const {
     const auto known =
-        slot + 1 < all_.first.size()
-            ? std::span(pair_of_end_).subspan(all_.first[slot], all_.first[slot + 1] - all_.first[slot])
+        slot + 1 < first_end_.size()
+            ? std::span(pair_of_end_).subspan(first_end_[slot], first_end_[slot + 1] - first_end_[slot])
             : std::span<const std::uint32_t>();
     return known | std::views::transform([this, slot](std::uint32_t pair) {
              const bool second = pairs_[pair].b == slot;
@@ -115,17 +116,14 @@ class PairContacts {
            });
   }
   const Sweep& sweep() const { return sweep_; }
-  /// For a step after which forces are asked for: they are kept for all ends, else in the ring.
-  void keep_forces(bool all);
-  bool keeps_forces() const { return !end_forces_.empty(); }
+  /// For a step after which forces are asked for; else force() is zero.
+  void keep_forces(bool keep);
   /// What the kernels see of pairs shared by parts, and of those inside parts.
   PairView shared_view();
   PairView view();
-  /// The first end of slot s is at first_places()[s], its number of ends ends_of(s).
-  const std::uint32_t* first_places() const {
-    return keeps_forces() ? all_.first.data() : ring_.places.first.data();
-  }
-  const std::uint32_t* first_ends() const { return all_.first.data(); }
+  /// Where slot s collects: from ring_places()[s] on, so many as there are first_ends() up to the next slot.
+  const std::uint32_t* ring_places() const { return ring_.first.data(); }
+  const std::uint32_t* first_ends() const { return first_end_.data(); }
   /// Brings forces of shared pairs to where the grains of a block collect them.
   void fetch_shared(std::size_t block);
   std::size_t bytes() const;
@@ -134,18 +132,17 @@ class PairContacts {
 
  private:
   void place_pairs(const std::vector<PairRef>& found, const PairOrder& order);
-  void build_adjacency(const std::vector<GrainSite>& sites);
+  std::vector<PairEnds> build_adjacency(const std::vector<GrainSite>& sites);
 
   KeptMemories kept_;
   Sweep sweep_;
   std::size_t listed_ = 0;
   LargeVector<PairRef> pairs_;
   std::vector<GroupBits> bits_;
-  EndPlaces all_;  // `first` with one past the last
   EndRing ring_;
-  Reals sliding_, rolling_;
-  Reals end_forces_;                 // by all_; empty while nobody asks
-  Reals ring_forces_, kept_forces_;  // by ring_
+  Reals sliding_, rolling_, forces_;
+  Reals ring_forces_, kept_forces_;       // by ring_
+  std::vector<std::uint32_t> first_end_;  // of each slot, and one past the last
   std::size_t end_reals_;
   std::vector<PairHeat> heat_;
   std::vector<std::uint32_t> pair_of_end_;

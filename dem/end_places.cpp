@@ -21,58 +21,56 @@ std::size_t widest_window(const Sweep& sweep, std::size_t part, const LargeVecto
 
 }  // namespace
 
-EndRing make_ring(const Sweep& sweep, const LargeVector<PairRef>& pairs, const EndPlaces& all) {
+EndRing make_ring(const Sweep& sweep, const LargeVector<PairRef>& pairs,
+                  const std::vector<std::uint32_t>& first_end, const std::vector<PairEnds>& ends) {
   const Parts& parts = sweep.parts;
+  const auto ends_of = [&](std::size_t slot) { return first_end[slot + 1] - first_end[slot]; };
   EndRing ring;
-  ring.places.first.resize(parts.rows);
+  ring.first.resize(parts.rows);
   std::size_t base = 0;
   for (std::size_t p = 0; p < parts.count(); ++p) {
     const std::size_t begin = parts.begin_row(parts.first_block[p]),
                       end = std::min(parts.rows, parts.begin_row(parts.first_block[p + 1]));
     std::size_t most = 0;  // ends of one grain
-    for (std::size_t s = begin; s < end; ++s)
-      most = std::max<std::size_t>(most, all.first[s + 1] - all.first[s]);
-    const std::size_t size = widest_window(sweep, p, pairs, all.first) + 2 * most;
+    for (std::size_t s = begin; s < end; ++s) most = std::max<std::size_t>(most, ends_of(s));
+    const std::size_t size = widest_window(sweep, p, pairs, first_end) + 2 * most;
     std::size_t at = 0;
     for (std::size_t s = begin; s < end; ++s) {
-      const std::size_t ends = all.first[s + 1] - all.first[s];
-      if (at + ends > size) at = 0;  // a grain's ends lie side by side
-      ring.places.first[s] = static_cast<std::uint32_t>(base + at);
-      at += ends;
+      if (at + ends_of(s) > size) at = 0;  // a grain's ends lie side by side
+      ring.first[s] = static_cast<std::uint32_t>(base + at);
+      at += ends_of(s);
     }
     base += size;
   }
-  const auto nobody = static_cast<std::uint32_t>(base);
-  ring.places.places = base + 1;
+  ring.places = base + 1;
   ring.kept = 2 * sweep.shared_groups * kLanes + 1;
 
-  ring.places.of_pair.resize(pairs.size());
+  ring.of_pair.resize(pairs.size());
   std::vector<std::vector<SharedEnd>> by_block(parts.blocks());
   for (std::size_t k = 0; k < pairs.size(); ++k) {
-    const PairEnds& ends = all.of_pair[k];
     const bool shared = k < sweep.shared_groups * kLanes;
-    if (ends.a + 1 == all.places) {  // an empty place of the list
-      const auto none = shared ? static_cast<std::uint32_t>(ring.kept - 1) : nobody;
-      ring.places.of_pair[k] = {none, none};
+    if (ends[k].a == ends[k].b) {
+      const auto nobody = static_cast<std::uint32_t>(shared ? ring.kept - 1 : base);
+      ring.of_pair[k] = {nobody, nobody};
       continue;
     }
     const auto place = [&](std::uint32_t slot, std::uint32_t end) {
-      return ring.places.first[slot] + (end - all.first[slot]);
+      return ring.first[slot] + (end - first_end[slot]);
     };
-    const PairEnds in_ring{place(pairs[k].a, ends.a), place(pairs[k].b, ends.b)};
+    const PairEnds in_ring{place(pairs[k].a, ends[k].a), place(pairs[k].b, ends[k].b)};
     if (!shared) {
-      ring.places.of_pair[k] = in_ring;
+      ring.of_pair[k] = in_ring;
       continue;
     }
     const auto kept = static_cast<std::uint32_t>(2 * k);
-    ring.places.of_pair[k] = {kept, kept + 1};
+    ring.of_pair[k] = {kept, kept + 1};
     by_block[pairs[k].a / kRowsPerBlock].push_back({in_ring.a, kept});
     by_block[pairs[k].b / kRowsPerBlock].push_back({in_ring.b, kept + 1});
   }
-  ring.first.push_back(0);
+  ring.of_block.push_back(0);
   for (const auto& block : by_block) {
     ring.shared.insert(ring.shared.end(), block.begin(), block.end());
-    ring.first.push_back(static_cast<std::uint32_t>(ring.shared.size()));
+    ring.of_block.push_back(static_cast<std::uint32_t>(ring.shared.size()));
   }
   return ring;
 }

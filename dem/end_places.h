@@ -3,7 +3,7 @@
 //
 // As a sweep goes on, a grain's ends are written from when the first of its partners is worked on until it
 // collects them. Only so many are in use at a time; in a ring they take the same small piece of memory step
-// after step, which stays in cache. All ends at once are kept where somebody will ask for forces.
+// after step, which stays in cache.
 #pragma once
 
 #include <cstdint>
@@ -22,12 +22,6 @@ struct PairEnds {
 /// A grain collects so many ends at a time, the last of which may be others'.
 inline constexpr std::size_t kEndsAtOnce = 4;
 
-struct EndPlaces {
-  std::vector<std::uint32_t> first;  // place of each slot's first end
-  LargeVector<PairEnds> of_pair;     // empty places of the list: one place that nobody reads
-  std::size_t places = 0;            // in all
-};
-
 /// An end of a pair shared by two parts, evaluated before any grain moves: kept apart, and brought into the
 /// ring when its grain collects.
 struct SharedEnd {
@@ -35,13 +29,17 @@ struct SharedEnd {
 };
 
 struct EndRing {
-  EndPlaces places;                  // pairs shared by parts: their places in `kept`
-  std::vector<SharedEnd> shared;     // by block of rows
-  std::vector<std::uint32_t> first;  // of each block's, and one past the last
-  std::size_t kept = 0;              // places for shared pairs
+  std::vector<std::uint32_t> first;     // place of each slot's first end
+  LargeVector<PairEnds> of_pair;        // of pairs shared by parts: their places in what is kept apart
+  std::size_t places = 0;               // the last is for empty places of the list, and nobody reads it
+  std::vector<SharedEnd> shared;        // by block of rows
+  std::vector<std::uint32_t> of_block;  // the first of each block's, and one past the last
+  std::size_t kept = 0;                 // places for shared pairs
 };
 
-/// From the places of all ends, `first` with one past the last.
-EndRing make_ring(const Sweep& sweep, const LargeVector<PairRef>& pairs, const EndPlaces& all);
+/// `first_end`: number of ends of all slots before each, and one past the last; `ends`: the number of each
+/// pair's ends among them, both equal in empty places of the list.
+EndRing make_ring(const Sweep& sweep, const LargeVector<PairRef>& pairs,
+                  const std::vector<std::uint32_t>& first_end, const std::vector<PairEnds>& ends);
 
 }  // namespace interstice::dem

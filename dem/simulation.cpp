@@ -15,7 +15,6 @@ constexpr std::int64_t kRebuildsPerSort = 32;
 constexpr std::size_t kPartsPerThread = 4;
 /// Share of the skin beyond which a gap makes a pair far: far pairs need no look until grains have moved by
 /// it.
-constexpr double kNearGap = 1.0 / 3;
 
 Vec3d offset_at(const Vec3d& offset, const Vec3d& velocity, std::int64_t steps, double dt) {
   return offset + (static_cast<double>(steps) * dt) * velocity;
@@ -191,8 +190,8 @@ void Simulation::rebuild_if_needed() {
   }
 }
 
-/// Lists that last: the near pairs some 30 steps at the present speed, the candidates four times as long. Bits
-/// do not depend on it, only speed does.
+/// Lists that last: the near pairs some 30 steps at the present speed, the candidates four times as long.
+/// Bits do not depend on it, only speed does.
 void Simulation::choose_gaps(const std::vector<GrainSite>& sites) {
   double radius_sum = 0, fastest = fastest_;
   for (const GrainSite& g : sites) radius_sum += g.radius;

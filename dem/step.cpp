@@ -194,7 +194,7 @@ template <class Real>
                                                               std::size_t begin, std::size_t end,
                                                               bool begin_next) {
   PassReport report;
-  const std::uint32_t *ends = pair_contacts_.first_ends(), *places = pair_contacts_.first_places();
+  const std::uint32_t *ends = pair_contacts_.first_ends(), *places = pair_contacts_.ring_places();
   const Real* const end_forces = static_cast<const Real*>(view.pairs.end_forces);
   const Four gravity = four(model_.gravity);
   const Bounds bounds{four(model_.domain.lo), four(model_.domain.hi)};

@@ -120,6 +120,7 @@ void evaluate_group(const L& laws, const StepView& v, const PairConstants<simd::
   if (near_only && bits.touching == 0 && ((g.overlap > P(0)).bits() & bits.listed) == 0) {
     const Vec3<P> none{P(0), P(0), P(0)};
     store_ends(v.pairs.ends + first, none, none, none, static_cast<Real*>(v.pairs.end_forces));
+    if (v.pairs.forces) std::fill_n(static_cast<Real*>(v.pairs.forces) + 3 * first, 3 * kLanes, Real(0));
     if (v.pairs.heat) std::fill_n(v.pairs.heat + first, kLanes, PairHeat{});
     return;  // still apart
   }
@@ -131,16 +132,16 @@ void evaluate_group(const L& laws, const StepView& v, const PairConstants<simd::
 
   P arm_a, arm_b;
   const ContactKinematics<P> kin = pair_kinematics(laws, g, a, b, effective_radius, arm_a, arm_b);
-  Real* const sliding = static_cast<Real*>(v.pairs.sliding) + kSpringReals * first;
-  Real* const rolling = static_cast<Real*>(v.pairs.rolling) + kSpringReals * first;
+  const auto spring = [&](void* springs) { return static_cast<Real*>(springs) + kSpringReals * first; };
   ContactMemory<P> memory{};
-  if (laws.tangential == TangentialLaw::mindlin) memory.sliding = load_spring<P>(sliding);
-  if (laws.rolling == RollingLaw::epsd2) memory.rolling = load_spring<P>(rolling);
+  if (laws.tangential == TangentialLaw::mindlin) memory.sliding = load_spring<P>(spring(v.pairs.sliding));
+  if (laws.rolling == RollingLaw::epsd2) memory.rolling = load_spring<P>(spring(v.pairs.rolling));
   const StepConstants<P> step{P(v.dt), P(v.slider_velocity)};
   const ContactForce<P> f = evaluate_contact(laws, kin, c, memory, step);
 
-  if (laws.tangential == TangentialLaw::mindlin) store_spring(f.memory.sliding, touching, sliding);
-  if (laws.rolling == RollingLaw::epsd2) store_spring(f.memory.rolling, touching, rolling);
+  if (laws.tangential == TangentialLaw::mindlin)
+    store_spring(f.memory.sliding, touching, spring(v.pairs.sliding));
+  if (laws.rolling == RollingLaw::epsd2) store_spring(f.memory.rolling, touching, spring(v.pairs.rolling));
   const Vec3<P> none{P(0), P(0), P(0)};
   Vec3<P> across = none;
   if (laws.cohesion == CohesionLaw::van_der_waals)
@@ -151,8 +152,12 @@ void evaluate_group(const L& laws, const StepView& v, const PairConstants<simd::
     torque_a = select(touching, f.rolling_torque - arm_a * turning, none);
     torque_b = select(touching, -f.rolling_torque - arm_b * turning, none);
   }
-  store_ends(v.pairs.ends + first, select(touching, f.force, across), torque_a, torque_b,
-             static_cast<Real*>(v.pairs.end_forces));
+  const Vec3<P> force = select(touching, f.force, across);
+  store_ends(v.pairs.ends + first, force, torque_a, torque_b, static_cast<Real*>(v.pairs.end_forces));
+  if (v.pairs.forces) {
+    Real* const forces = static_cast<Real*>(v.pairs.forces) + 3 * first;
+    force.x.store(forces), force.y.store(forces + kLanes), force.z.store(forces + 2 * kLanes);
+  }
   if (v.pairs.heat) {
     const P torn = s.torn != 0 ? tear_heat(c, effective_radius) : P(0);
     store_heat(s, f, memory.sliding, memory.rolling, torn, v.pairs.heat + first);
