@@ -16,7 +16,7 @@ inline constexpr double kCdtShare = 0.2;
 template <class T>
 INTERSTICE_HD inline Vec3<T> cdt_torque(const Vec3<T>& relative_spin, const Vec3<T>& normal, const T& limit,
                                         const T& effective_mass, const T& effective_radius, const T& dt) {
-  const T stopping = T(kCdtShare * 0.4) * effective_mass * square(effective_radius) / dt;  // [N m s]
+  const T stopping = T(kCdtShare * 0.4) * (effective_mass / dt) * square(effective_radius);  // [N m s]
   const T speed = norm(relative_spin);
   const auto fast = speed * stopping > limit;
   const T scale = select(fast, limit / select(fast, speed, T(1)), stopping);

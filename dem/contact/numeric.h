@@ -29,11 +29,11 @@ INTERSTICE_HD inline float sqrt_of(float a) { return std::sqrt(a); }
 INTERSTICE_HD inline float cbrt_of(float a) { return std::cbrt(a); }
 
 /// The length of a force or a torque. Scaled in single precision, where the square of the torque on a grain
-/// of 1 um underflows: lengths from 1e-30 to 1e7 keep their digits.
-inline constexpr float kLengthScale = 0x1p40f;
+/// of 1 um underflows.
 INTERSTICE_HD inline double length_of(const Vec3<double>& v) { return norm(v); }
 INTERSTICE_HD inline float length_of(const Vec3<float>& v) {
-  return (1 / kLengthScale) * norm(kLengthScale * v);
+  const float largest = max_of(max_of(abs_of(v.x), abs_of(v.y)), max_of(abs_of(v.z), 1e-37f));
+  return largest * norm(1 / largest * v);
 }
 
 template <class T>

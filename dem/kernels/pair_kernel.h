@@ -91,7 +91,7 @@ ContactKinematics<P> pair_kinematics(const L& laws, const PairGeometry<P>& g, co
   const bool beyond = laws.cohesion == CohesionLaw::jkr;
   kin.overlap = beyond ? g.overlap : max_of(g.overlap, P(0));
   kin.effective_radius = effective_radius;
-  kin.effective_mass = a.mass * b.mass / (a.mass + b.mass);
+  kin.effective_mass = a.mass * (b.mass / (a.mass + b.mass));  // their product may underflow
   kin.normal = g.normal;
   if (laws.cohesion == CohesionLaw::sjkr) {
     kin.area = sphere_sphere_area(g.radius_a, g.radius_b, g.distance, kin.overlap);
@@ -99,10 +99,13 @@ ContactKinematics<P> pair_kinematics(const L& laws, const PairGeometry<P>& g, co
   arm_a = g.radius_a - P(0.5) * kin.overlap;
   arm_b = g.radius_b - P(0.5) * kin.overlap;
   kin.velocity = a.velocity - b.velocity;
+  kin.relative_spin = a.spin - b.spin;
   if (laws.tangential != TangentialLaw::none) {
-    kin.velocity = kin.velocity - cross(arm_a * a.spin + arm_b * b.spin, g.normal);
+    // arm_a w_a + arm_b w_b, exactly 0 for equal grains that roll on each other
+    const Vec3<P> surface =
+        P(0.5) * ((arm_a + arm_b) * (a.spin + b.spin) + (arm_a - arm_b) * kin.relative_spin);
+    kin.velocity = kin.velocity - cross(surface, g.normal);
   }
-  if (laws.rolling != RollingLaw::none) kin.relative_spin = a.spin - b.spin;
   return kin;
 }
 

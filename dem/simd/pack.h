@@ -254,7 +254,9 @@ Pack<T, N> sqrt(const Pack<T, N>& a) {
 template <class T, int N>
 Pack<T, N> length_of(const Vec3<Pack<T, N>>& v) {
   if constexpr (std::is_same_v<T, float>) {
-    return Pack<T, N>(1 / kLengthScale) * norm(Pack<T, N>(kLengthScale) * v);
+    using P = Pack<T, N>;
+    const P largest = max_of(max_of(abs_of(v.x), abs_of(v.y)), max_of(abs_of(v.z), P(1e-37f)));
+    return largest * norm(P(1) / largest * v);
   } else {
     return norm(v);
   }
