@@ -164,6 +164,7 @@ class Batch {
   void compute(stream::QueuedFrame& item, FramePlan plan) {
     const bool many = one_of_many(item.input);
     const auto periods = warning_of_periods(item.frame, options_, options_.inputs[item.input].string());
+    const auto walls = warnings_of_walls(options_.walls, plan.request.box);
     const auto place = folder_.place_of({item.input, item.number}, many);
     const FrameTask task{options_.inputs[item.input], scans_[item.input].kind, item.number,
                          options_.output / place};
@@ -174,6 +175,9 @@ class Batch {
     figures_warned_ = figures_warned_ || !output.missing_figures.empty();
     if (!coarse_warned_.count(item.input)) warn_of_resolution(item);
     if (!periods.empty() && warned_.insert(periods).second) bar_.line("warning: " + periods);
+    for (const auto& line : walls) {
+      if (warned_.insert(line).second) bar_.line("warning: " + line);
+    }
     ++computed_;
     unwritten_ = 0;
     show();

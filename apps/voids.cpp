@@ -54,7 +54,7 @@ Input inspect(const std::filesystem::path& path, const VoidsOptions& options) {
                          : fmt::format("{}: --frame {}: no such frame; 0 to {}; correct it, or use last",
                                        path.string(), options.frame, seen - 1));
   }
-  if (options.frames != Frames::all) plan_frame(latest, options, place_of(path, seen - 1));
+  const FramePlan plan = plan_frame(latest, options, place_of(path, seen - 1));
   input.first = options.frames == Frames::all ? 0 : seen - 1;
   input.count = seen - input.first;
   input.one_of_many = input.count > 1;
@@ -62,6 +62,7 @@ Input inspect(const std::filesystem::path& path, const VoidsOptions& options) {
   if (const auto line = resolution_warning(path.string(), resolution, options.voxel); !line.empty()) {
     print_warning(line);
   }
+  for (const auto& line : warnings_of_walls(options.walls, plan.request.box)) print_warning(line);
   const std::string periods = warning_of_periods(latest, options, path.string());
   if (!periods.empty()) print_warning(periods);
   return input;

@@ -20,7 +20,10 @@ std::string moment_of(const io::FieldFilesRequest& request) {
 }
 
 std::string averaged_name(const io::FieldFilesRequest& request) {
-  return fmt::format("averaged over {}", format_length(request.computed.average_length));
+  return fmt::format("averaged over {}{}", format_length(request.computed.average_length),
+                     request.computed.average_window == WindowShape::box
+                         ? std::string()
+                         : fmt::format(" ({})", name_of(request.computed.average_window)));
 }
 std::string voxel_name(const io::FieldFilesRequest& request) {
   return fmt::format("per voxel of {}", format_length(request.computed.lattice.h.x));
@@ -32,9 +35,9 @@ void draw_slice(const std::filesystem::path& png, const scene::Slice& slice, con
   figure.title = fmt::format("Void fraction at {} = {}{}", "xyz"[slice.axis], format_length(slice.at),
                              moment_of(f.request));
   figure.note = note_of(f.request);
-  figure.panels.push_back({voxel_name(f.request), samples, false, f.frame.walls});
+  figure.panels.push_back({voxel_name(f.request), samples, false, f.frame.walls, f.solids});
   if (!samples.void_fraction_averaged.empty()) {
-    figure.panels.push_back({averaged_name(f.request), samples, true, f.frame.walls});
+    figure.panels.push_back({averaged_name(f.request), samples, true, f.frame.walls, f.solids});
     figure.contours = f.contours;
     std::string levels;
     for (const double level : f.contours) levels += fmt::format("{}{:g}", levels.empty() ? "" : ", ", level);
@@ -98,13 +101,29 @@ void draw_histogram(const std::filesystem::path& png, const VoidsFigures& f) {
   figures::write_curves(png, {figure}, f.formats);
 }
 
+void draw_scales(const std::filesystem::path& png, const VoidsFigures& f) {
+  if (!f.result.scales || f.result.scales->rows.empty()) return;
+  figures::write_scales(
+      png,
+      {"Void fraction against averaging length" + moment_of(f.request),
+       fmt::format("voxel {}, method {}; all windows inside the box with at least half of "
+                   "their volume outside walls",
+                   format_length(f.request.computed.lattice.h.x), io::name_of(f.request.computed)),
+       *f.result.scales},
+      f.formats);
+}
+
 }  // namespace
 
 std::string note_of(const io::FieldFilesRequest& request) {
   std::string note = fmt::format("voxel {}, method {}", format_length(request.computed.lattice.h.x),
                                  io::name_of(request.computed));
   if (request.computed.average_length > 0) {
-    note += fmt::format(", averaged over a cube of {}", format_length(request.computed.average_length));
+    constexpr std::array<const char*, 3> kWindows{"a cube of", "a sphere of diameter",
+                                                  "a Gaussian of length"};
+    note += fmt::format(", averaged over {} {}",
+                        kWindows[static_cast<std::size_t>(request.computed.average_window)],
+                        format_length(request.computed.average_length));
   }
   return note;
 }
@@ -122,6 +141,7 @@ std::string draw_voids(const std::filesystem::path& folder, const VoidsFigures& 
       draw_line(folder / "lines" / (io::name_of(line) + ".png"), line, f.result.lines[i], f);
     }
     draw_histogram(folder / "histogram.png", f);
+    draw_scales(folder / "scales.png", f);
   } catch (const std::exception& error) {  // the numbers are written; a picture is no reason to fail
     return fmt::format("{}: a figure is missing: {}", folder.string(), error.what());
   }

@@ -18,6 +18,7 @@ struct VoidsFigures {
   const io::FieldFilesResult& result;
   const studies::VoidHistogram& histogram;
   const io::ParticleFrame& frame;
+  const voxel::Solids& solids;  // besides the frame's walls
   figures::Formats formats;
   std::vector<double> contours;  // levels on slices of the averaged field
 };

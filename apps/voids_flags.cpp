@@ -16,9 +16,19 @@ void add_voids_flags(CLI::App& c, VoidsWords& words) {
                "exact, centre, divided[:LEAST_VOID], subsample:N or kernel:LENGTH (docs/METHODS.md)");
   c.add_option("--overlap", words.overlap,
                "how places count that spheres share: sum (once for each) or union (once)");
-  c.add_option("--average", words.average, "also fields averaged over a cube of this edge");
+  c.add_option("--average", words.average, "also fields averaged over this length, such as 120um");
+  c.add_option(
+      "--average-window", words.average_window,
+      "over what: box (a cube of that edge, default), sphere (of that diameter) or gaussian (of that "
+      "cube's second moments)");
   c.add_flag("--scales", words.scales, "also scales.csv: void fraction against averaging length");
-  c.add_option("--walls", words.walls, "not in this version")->allow_extra_args(false);
+  c.add_option("--walls", words.walls,
+               "FILE.stl@UNIT: solid inside a closed surface, such as blade.stl@mm (repeatable)")
+      ->allow_extra_args(false);
+  c.add_option("--solid", words.solids,
+               "solid box:x0,x1,y0,y1,z0,z1, ball:x,y,z,RADIUS, cylinder:x0,y0,z0,x1,y1,z1,RADIUS or "
+               "plane:x,y,z,nx,ny,nz (repeatable)")
+      ->allow_extra_args(false);
   c.add_option("--slice", words.slices, "plane of voxels, such as x=4.5mm (repeatable)")
       ->allow_extra_args(false);
   c.add_option("--line", words.lines, "row of voxels, such as y@x=9mm,z=35um (repeatable)")

@@ -117,7 +117,6 @@ FramePlan plan_frame(const io::ParticleFrame& frame, const VoidsOptions& options
   computed.periodic = options.periodic;
   apply(options.method, computed);
   computed.precision = options.precision;
-  computed.average_length = options.average;
   computed.density = options.density;
   check_method_here(computed, options, where);
   plan.memory = stream::field_memory(request, stream::cells_reached(frame.radius, computed),
@@ -140,7 +139,10 @@ FramePlan plan_frame(const io::ParticleFrame& frame, const VoidsOptions& options
   request.frame = -1;
   request.step = frame.step;
   request.time = frame.time;
+  plan.solids = options.walls.solids;
   for (const auto& wall : frame.walls) plan.solids.shapes.push_back(wall.shape);
+  for (const auto& wall : frame.walls) request.walls.push_back(wall.name);
+  for (const auto& word : options.walls.words) request.walls.push_back(word);
   return plan;
 }
 

@@ -76,6 +76,17 @@ void read_overlap(const std::string& text, MethodOptions& options) {
     throw InputError("--overlap: " + text + " is not known; sum or union; leave the option out for sum");
 }
 
+void read_window(const std::string& text, MethodOptions& options) {
+  const auto window = window_named(text);
+  if (!window)
+    throw InputError("--average-window: " + text +
+                     " is no window; box, sphere or gaussian; leave the option out for box");
+  if (!(options.average > 0) && !options.scales)
+    throw InputError("--average-window: " + text +
+                     " has nothing to average; --average LENGTH or --scales beside it; add one of them");
+  options.window = *window;
+}
+
 void check_together(const MethodOptions& options) {
   if (options.overlap == voxel::Overlap::united && options.method != voxel::Method::exact)
     throw InputError(
@@ -89,6 +100,8 @@ void apply(const MethodOptions& options, voxel::FieldRequest& request) {
   request.least_void = options.least_void;
   request.kernel_length = options.kernel_length;
   request.overlap = options.overlap;
+  request.average_length = options.average;
+  request.average_window = options.window;
 }
 
 }  // namespace interstice::apps

@@ -170,7 +170,8 @@ VoidsOptions read_voids_options(const VoidsWords& words) {
   options.method.scales = words.scales;
   if (words.compute.precision == "mixed") options.precision = voxel::Precision::mixed;
   attempt(!words.average.empty(),
-          [&] { options.average = positive(words.average, Dimension::length, "--average"); });
+          [&] { options.method.average = positive(words.average, Dimension::length, "--average"); });
+  attempt(!words.average_window.empty(), [&] { read_window(words.average_window, options.method); });
   for (const auto& slice : words.slices) {
     attempt(true, [&] {
       const auto parsed = scene::parse_slice(slice, "--slice");
@@ -201,11 +202,8 @@ VoidsOptions read_voids_options(const VoidsWords& words) {
   attempt(!words.memory.empty(), [&] { read_memory(words.memory, options); });
   attempt(true, [&] { options.formats = figures::parse_formats(words.figures, "--figures"); });
   attempt(!words.contours.empty(), [&] { read_contours(words.contours, options); });
-  if (!words.walls.empty()) {
-    errors.emplace_back(
-        "--walls: STL walls are not in this version; walls of a trajectory are taken along by "
-        "themselves; leave the option out");
-  }
+  for (const auto& wall : words.walls) attempt(true, [&] { read_mesh(wall, options.walls); });
+  for (const auto& solid : words.solids) attempt(true, [&] { read_solid(solid, options.walls); });
   if (!errors.empty()) throw InputError(errors);
   options.overwrite = words.overwrite;
   options.figures = !words.no_figures;

@@ -10,6 +10,7 @@
 
 #include "apps/command.h"
 #include "apps/voids_method.h"
+#include "apps/voids_walls.h"
 #include "coupling/figures/formats.h"
 #include "coupling/io/particle_reader.h"
 #include "coupling/scene/scene.h"
@@ -20,10 +21,10 @@ namespace interstice::apps {
 /// As typed.
 struct VoidsWords {
   std::vector<std::string> inputs;
-  std::string output, voxel, box, periodic, method = "exact", overlap = "sum", average, layers, density,
-                                            length_unit, frame = "last", columns, figures = "png", contours,
-                                            memory;
-  std::vector<std::string> walls, slices, lines;
+  std::string output, voxel, box, periodic, method = "exact", overlap = "sum", average, average_window,
+                                            layers, density, length_unit, frame = "last", columns,
+                                            figures = "png", contours, memory;
+  std::vector<std::string> walls, solids, slices, lines;
   bool overwrite = false, no_figures = false, scales = false;
   ComputeOptions compute;
 };
@@ -38,8 +39,8 @@ struct VoidsOptions {
   std::optional<Box> box;  // [m]
   std::array<bool, 3> periodic{false, false, false};
   MethodOptions method;
+  WallOptions walls;
   voxel::Precision precision = voxel::Precision::real64;
-  double average = 0;  // [m]
   std::vector<scene::Slice> slices;
   std::vector<scene::Line> lines;
   struct Layers {

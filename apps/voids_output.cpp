@@ -55,8 +55,9 @@ FrameOutput write_frame(const FrameTask& task, io::ParticleFrame& frame, FramePl
   io::write_text_atomically(task.folder / "histogram.csv", studies::csv_of(histogram));
   output.files = io::write_field_files(task.folder, field, view, plan.solids, request);
   if (options.figures) {
-    output.missing_figures =
-        draw_voids(task.folder, {request, output.files, histogram, frame, options.formats, options.contours});
+    output.missing_figures = draw_voids(
+        task.folder,
+        {request, output.files, histogram, frame, options.walls.solids, options.formats, options.contours});
   }
   return output;
 }
@@ -90,7 +91,7 @@ void clear_results(const std::filesystem::path& folder) {
                            "profile_x.csv", "profile_y.csv", "profile_bed.csv", "summary.json"}) {
     std::filesystem::remove_all(folder / name, error);
   }
-  for (const char* stem : {"histogram", "time_space"}) {
+  for (const char* stem : {"histogram", "time_space", "scales"}) {
     for (const char* kind : {".csv", ".png", ".pdf", ".svg", ".dat", ".gp"}) {
       std::filesystem::remove(folder / (std::string(stem) + kind), error);
     }

@@ -133,12 +133,12 @@ double leave_out_hidden(const Overlaps& overlaps, const std::vector<double>& ins
 }
 
 /// Room for what averages are taken from.
-DenseParts dense_parts(const Lattice& lattice, const CellRange& occupied,
-                       const std::array<Window, 3>& windows, bool walls, const Channels& channels) {
-  DenseParts dense{dense_shares(lattice, occupied, windows, walls), {}};
+DenseParts dense_parts(const Lattice& lattice, const CellRange& occupied, const Window& window, bool walls,
+                       const Channels& channels) {
+  DenseParts dense{dense_shares(lattice, occupied, window, walls), {}};
   dense.parts.resize(channels.outputs.size());
   const std::size_t cells = dense.shares.solid.size();
-  double numbers = static_cast<double>(walls ? 2 * cells : cells);
+  double numbers = static_cast<double>(cells) * doubles_a_cell(window, walls);
   for (const Output& output : channels.outputs)
     numbers += output.averageable() ? static_cast<double>(cells) : 0;
   if (numbers > kMostAverageDoubles)
@@ -148,17 +148,6 @@ DenseParts dense_parts(const Lattice& lattice, const CellRange& occupied,
   for (std::size_t o = 0; o < dense.parts.size(); ++o)
     if (channels.outputs[o].averageable()) dense.parts[o].assign(cells, 0.0);
   return dense;
-}
-
-/// Each quantity's parts by the same window as the shares.
-void average_all(const Lattice& lattice, const std::array<Window, 3>& windows, DenseParts& dense) {
-  for (std::vector<double>& parts : dense.parts) {
-    if (parts.empty()) continue;
-    DenseShares one{dense.shares.range, std::move(parts), dense.shares.available};
-    average(lattice, windows, one);
-    parts = std::move(one.solid);
-  }
-  average(lattice, windows, dense.shares);  // last: this uses up what is available
 }
 
 /// Integrals and means of the quantities, from the parts of all blocks.
@@ -204,10 +193,11 @@ Field compute_field(const SpheresView& spheres, const Solids& solids, const Fiel
   }
 
   DenseParts dense;
-  std::array<Window, 3> windows;
+  Window window;
   if (averaged && !bins.reached.empty()) {
-    windows = averaging_windows(lattice, request.average_length, request.periodic);
-    dense = dense_parts(lattice, bins.reached, windows, !walled.empty(), channels);
+    window = averaging_window(lattice, request.average_window, request.average_length / lattice.h.x,
+                              request.periodic);
+    dense = dense_parts(lattice, bins.reached, window, !walled.empty(), channels);
   }
   std::vector<BlockResult> blocks = accumulate(
       {spheres, request, bins, walls, walled, channels, dense.shares.range.empty() ? nullptr : &dense,
@@ -220,7 +210,8 @@ Field compute_field(const SpheresView& spheres, const Solids& solids, const Fiel
   fill_grids(request, !solids.empty(), channels, blocks, field);
   sum_quantities(channels, blocks, field);
   if (averaged) {
-    if (!dense.shares.range.empty()) average_all(lattice, windows, dense);
+    if (!dense.shares.range.empty())
+      average(lattice, window, {dense.shares.range}, dense.shares, dense.parts);
     fill_averaged_grids(request, channels, dense, field);
   }
   return field;

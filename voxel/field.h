@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "base/averaging_window.h"
 #include "voxel/float_grid.h"
 #include "voxel/lattice.h"
 #include "voxel/precision.h"
@@ -31,8 +32,9 @@ struct FieldRequest {
   double kernel_length = 0;  // [m] how far Method::kernel reaches from a centre along each axis
   Overlap overlap = Overlap::sum;
   Precision precision = Precision::real64;  // of Method::exact; the others work in double
-  double average_length = 0;                // edge of the averaging cube [m]; 0: no averaged grids
-  double density = 0;                       // [kg/m^3] used where spheres carry none; 0: no mass density
+  double average_length = 0;                // [m] as averaging_window.h reads it; 0: no averaged grids
+  WindowShape average_window = WindowShape::box;
+  double density = 0;  // [kg/m^3] used where spheres carry none; 0: no mass density
   QuantityRequest quantities;
 };
 
@@ -60,12 +62,11 @@ struct FieldSums {
 /// over solid are sums of what solid brings over the sum of solid, those per volume are over what is
 /// available, as the solid fraction is; a temperature is then about the mean velocity of the window.
 ///
-/// Averages are taken over a cube centred on each voxel: sum of solid / sum of available, with voxels that
-/// the cube's faces cut counted in part. Only what the cube holds of the box and outside walls counts, so at
-/// an edge that is not periodic it is cut off there; across a periodic edge it goes on at the other side (at
-/// most one period). A voxel inside a wall gets the average over what its cube reaches outside the wall;
-/// where the cube reaches nothing that is available, the grids keep their background. A length of at most a
-/// voxel's edge averages over the voxel itself.
+/// Averages are taken over a window centred on each voxel: sum of solid / sum of available, with voxels that
+/// the window's surface cuts counted in part (average.h). Only what the window holds of the box and outside
+/// walls counts, so at an edge that is not periodic it is cut off there; across a periodic edge it goes on at
+/// the other side. A voxel inside a wall gets the average over what its window reaches outside the wall;
+/// where the window reaches nothing that is available, the grids keep their background.
 struct Field {
   Lattice lattice;
   FieldSums sums;

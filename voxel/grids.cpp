@@ -33,6 +33,7 @@ openvdb::FloatGrid::Ptr dense_grid(const FieldRequest& request, const std::strin
                                    const Value& value) {
   const openvdb::FloatGrid::Ptr grid = new_grid(request, name, units, background);
   grid->insertMeta("average_length", openvdb::DoubleMetadata(request.average_length));
+  grid->insertMeta("average_window", openvdb::StringMetadata(std::string(name_of(request.average_window))));
   const CellRange& range = shares.range;
   if (range.empty()) return grid;
   std::array<std::int64_t, 3> first, count;

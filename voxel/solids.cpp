@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "voxel/overlap.h"
+
 namespace interstice::voxel {
 
 namespace {
@@ -122,15 +124,24 @@ double oblique_volume(const Plane& plane, const Box& cell) {
 
 }  // namespace
 
+Solids translated(const Solids& solids, const Vec3d& offset) {
+  Solids moved = solids;
+  for (Shape& shape : moved.shapes) shape = translated(shape, offset);
+  for (Ball& ball : moved.balls) ball.center += offset;
+  for (Cylinder& cylinder : moved.cylinders) cylinder.from += offset, cylinder.to += offset;
+  for (MeshSolid& mesh : moved.meshes) mesh.at += offset;
+  return moved;
+}
+
 double solid_volume(const Solids& solids, const Box& cell) {
   std::vector<Box> boxes;
-  double oblique = 0;
+  double others = 0;
   for (const Shape& shape : solids.shapes) {
     Box part;
     if (const auto* plane = std::get_if<Plane>(&shape)) {
       const int axis = normal_axis(*plane);
       if (axis < 0) {
-        oblique += oblique_volume(*plane, cell);
+        others += oblique_volume(*plane, cell);
         continue;
       }
       part = solid_side(*plane, axis, cell);
@@ -139,7 +150,11 @@ double solid_volume(const Solids& solids, const Box& cell) {
     }
     if (!is_empty(part)) boxes.push_back(part);
   }
-  return std::min(union_volume(boxes) + oblique, cell.volume());
+  for (const Ball& ball : solids.balls) others += sphere_box_volume(ball.center, ball.radius, cell);
+  for (const Cylinder& cylinder : solids.cylinders) others += cylinder_volume(cylinder, cell);
+  for (const MeshSolid& mesh : solids.meshes)
+    add_mesh_volumes(mesh, cell.lo, cell.size(), {1, 1, 1}, &others);
+  return std::clamp(union_volume(boxes) + others, 0.0, cell.volume());
 }
 
 }  // namespace interstice::voxel

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "voxel/quadrature.h"
+
 namespace interstice::voxel {
 
 namespace {
@@ -107,31 +109,7 @@ double shared_strip(Scratch& s, double lo, double hi) {
   return area;
 }
 
-// Gauss-Kronrod, 7 and 15 points on [-1, 1] (R. Piessens et al., QUADPACK, Springer 1983).
-constexpr std::array<double, 8> kNode{
-    0.9914553711208126, 0.9491079123427585, 0.8648644233597691, 0.7415311855993945,
-    0.5860872354676911, 0.4058451513773972, 0.2077849550078985, 0.0};
-constexpr std::array<double, 8> kWeight{0.0229353220105292, 0.0630920926299786, 0.1047900103222502,
-                                        0.1406532597155259, 0.1690047266392679, 0.1903505780647854,
-                                        0.2044329400752989, 0.2094821410847278};
-constexpr std::array<double, 4> kGauss{0.1294849661688697, 0.2797053914892767, 0.3818300505051189,
-                                       0.4179591836734694};
-constexpr int kDeepest = 24;
 constexpr double kNoise = 1e-13;  // of a cell: finer than this is rounding of areas
-
-double integrate(const std::vector<CellBall>& balls, double lo, double hi, double tolerance, int depth) {
-  const double middle = 0.5 * (lo + hi), half = 0.5 * (hi - lo);
-  double fine = 0, coarse = 0;
-  for (std::size_t n = 0; n < kNode.size(); ++n) {
-    double value = shared_area(balls, middle + half * kNode[n]);
-    if (n + 1 < kNode.size()) value += shared_area(balls, middle - half * kNode[n]);
-    fine += kWeight[n] * value;
-    if (n % 2 == 1) coarse += kGauss[n / 2] * value;
-  }
-  if (half * std::abs(fine - coarse) <= std::max(tolerance, kNoise) || depth == kDeepest) return half * fine;
-  return integrate(balls, lo, middle, 0.5 * tolerance, depth + 1) +
-         integrate(balls, middle, hi, 0.5 * tolerance, depth + 1);
-}
 
 /// How far a lens reaches along an axis: to the top of one ball where that lies in the other, else to its
 /// rim.
@@ -171,7 +149,7 @@ double shared_area(const std::vector<CellBall>& balls, double z) {
 double shared_volume(const std::vector<CellBall>& balls, double lo, double hi, double tolerance) {
   lo = std::max(lo, 0.0), hi = std::min(hi, 1.0);
   if (balls.size() < 2 || lo >= hi) return 0;
-  return integrate(balls, lo, hi, tolerance, 0);
+  return integrate([&](double z) { return shared_area(balls, z); }, lo, hi, tolerance, kNoise);
 }
 
 double shared_volume_by_lines(const std::vector<CellBall>& balls, int points) {

@@ -3,11 +3,15 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/error.h"
+#include "base/parallel.h"
+
 namespace interstice::voxel {
 
 namespace {
 
 constexpr double kRounding = 1e-11;
+constexpr double kInsideOut = 1e-6;  // of a block: less solid than none
 
 enum class Cover { none, some, all };
 
@@ -37,43 +41,97 @@ Cover cover_of(const Box& solid, const Box& box) {
   return cover;
 }
 
-Cover cover_of(const Shape& shape, const Box& box) {
-  return std::visit([&](const auto& solid) { return cover_of(solid, box); }, shape);
+Cover cover_of(const Ball& ball, const Box& box) {
+  double nearest = 0, farthest = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double below = box.lo[axis] - ball.center[axis], above = ball.center[axis] - box.hi[axis];
+    const double outside = std::max({below, above, 0.0}), far = std::max(std::abs(below), std::abs(above));
+    nearest += outside * outside;
+    farthest += far * far;
+  }
+  const double square = ball.radius * ball.radius;
+  return nearest >= square ? Cover::none : farthest <= square ? Cover::all : Cover::some;
 }
 
-// Blocks that may hold something of the shape: a box's own, all for a plane.
-CellRange candidate_blocks(const Shape& shape, const Lattice& lattice, const BlockGrid& grid) {
-  CellRange blocks{{0, 0, 0}, grid.n};
-  if (const auto* box = std::get_if<Box>(&shape))
-    for (int axis = 0; axis < 3; ++axis) {
-      const double edge = lattice.h[axis] * kBlock;
-      blocks.lo[axis] = std::max<std::int64_t>(0, floor_index(box->lo[axis] / edge));
-      blocks.hi[axis] = std::min(grid.n[axis], floor_index(box->hi[axis] / edge) + 1);
-    }
+Cover cover_of(const Cylinder& cylinder, const Box& box) {
+  if (distance(cylinder, box.center()) >= 0.5 * norm(box.size())) return Cover::none;
+  for (int corner = 0; corner < 8; ++corner)
+    if (!contains(cylinder, {corner & 1 ? box.hi.x : box.lo.x, corner & 2 ? box.hi.y : box.lo.y,
+                             corner & 4 ? box.hi.z : box.lo.z}))
+      return Cover::some;
+  return Cover::all;
+}
+
+Cover cover_of(const MeshSolid& mesh, const Box& box) {
+  double volume = 0;
+  add_mesh_volumes(mesh, box.lo, box.size(), {1, 1, 1}, &volume);
+  const double share = volume / box.volume();
+  if (share < -kInsideOut)
+    throw InputError(
+        "a mesh has a part that is turned inside out and no part around it; outer surfaces must face "
+        "outwards, "
+        "those of cavities inwards; turn it round where it was made");
+  return share < kRounding / kBlockCells       ? Cover::none
+         : share > 1 - kRounding / kBlockCells ? Cover::all
+                                               : Cover::some;
+}
+
+/// Where a solid may be.
+Box reach_of(const Plane&) { return {{-INFINITY, -INFINITY, -INFINITY}, {INFINITY, INFINITY, INFINITY}}; }
+Box reach_of(const Box& box) { return box; }
+Box reach_of(const Ball& ball) {
+  const Vec3d r{ball.radius, ball.radius, ball.radius};
+  return {ball.center - r, ball.center + r};
+}
+Box reach_of(const Cylinder& cylinder) { return bounds_of(cylinder); }
+Box reach_of(const MeshSolid& mesh) { return mesh.bounds(); }
+
+CellRange blocks_within(const Box& reach, const Lattice& lattice, const BlockGrid& grid) {
+  CellRange blocks;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double edge = lattice.h[axis] * kBlock;
+    blocks.lo[axis] = std::max<std::int64_t>(0, floor_index(reach.lo[axis] / edge));
+    blocks.hi[axis] = std::min(grid.n[axis], floor_index(reach.hi[axis] / edge) + 1);
+  }
   return blocks;
+}
+
+/// The solids that reach into a box.
+Solids those_near(const Solids& solids, const Box& box) {
+  Solids near;
+  const auto keep = [&](const auto& all, auto& kept) {
+    for (const auto& solid : all)
+      if (cover_of(solid, box) != Cover::none) kept.push_back(solid);
+  };
+  for (const Shape& shape : solids.shapes)
+    if (std::visit([&](const auto& solid) { return cover_of(solid, box); }, shape) != Cover::none)
+      near.shapes.push_back(shape);
+  keep(solids.balls, near.balls);
+  keep(solids.cylinders, near.cylinders);
+  return near;
 }
 
 }  // namespace
 
-Solids relative_to(const Solids& solids, const Lattice& lattice) {
-  Solids local;
-  for (const Shape& shape : solids.shapes) local.shapes.push_back(translated(shape, -lattice.lo));
-  return local;
-}
+Solids relative_to(const Solids& solids, const Lattice& lattice) { return translated(solids, -lattice.lo); }
 
 std::vector<WallBlock> wall_blocks(const Solids& local, const Lattice& lattice) {
   const BlockGrid grid(lattice);
   std::vector<WallBlock> found;
-  for (const Shape& shape : local.shapes) {
-    const CellRange blocks = candidate_blocks(shape, lattice, grid);
-    std::array<std::int64_t, 3> b;
-    for (b[0] = blocks.lo[0]; b[0] < blocks.hi[0]; ++b[0])
+  for_each_solid(local, [&](const auto& solid) {
+    const CellRange blocks = blocks_within(reach_of(solid), lattice, grid);
+    if (blocks.empty()) return;
+    std::vector<std::vector<WallBlock>> planes(static_cast<std::size_t>(blocks.size(0)));
+    for_each_block({planes.size(), 1}, [&](std::size_t plane, std::size_t, std::size_t) {
+      std::array<std::int64_t, 3> b{blocks.lo[0] + static_cast<std::int64_t>(plane), 0, 0};
       for (b[1] = blocks.lo[1]; b[1] < blocks.hi[1]; ++b[1])
         for (b[2] = blocks.lo[2]; b[2] < blocks.hi[2]; ++b[2]) {
-          const Cover cover = cover_of(shape, local_box(lattice, block_cells(lattice, b)));
-          if (cover != Cover::none) found.push_back({grid.key(b), cover == Cover::all});
+          const Cover cover = cover_of(solid, local_box(lattice, block_cells(lattice, b)));
+          if (cover != Cover::none) planes[plane].push_back({grid.key(b), cover == Cover::all});
         }
-  }
+    });
+    for (const auto& plane : planes) found.insert(found.end(), plane.begin(), plane.end());
+  });
   std::sort(found.begin(), found.end(), [](const WallBlock& a, const WallBlock& b) {
     return a.key != b.key ? a.key < b.key : a.full > b.full;
   });
@@ -85,17 +143,17 @@ std::vector<WallBlock> wall_blocks(const Solids& local, const Lattice& lattice) 
 
 void wall_fractions(const Solids& local, const Lattice& lattice, const CellRange& block, double* fractions) {
   const Box around = local_box(lattice, block);
-  Solids near;
-  for (const Shape& shape : local.shapes)
-    if (cover_of(shape, around) != Cover::none) near.shapes.push_back(shape);
-  CellRange cell;
+  const Solids near = those_near(local, around);
+  std::fill_n(fractions, block.cells(), 0.0);
+  for (const MeshSolid& mesh : local.meshes)
+    add_mesh_volumes(mesh, around.lo, lattice.h, {block.size(0), block.size(1), block.size(2)}, fractions);
   for (std::int64_t i = block.lo[0]; i < block.hi[0]; ++i)
     for (std::int64_t j = block.lo[1]; j < block.hi[1]; ++j)
-      for (std::int64_t k = block.lo[2]; k < block.hi[2]; ++k) {
-        cell = {{i, j, k}, {i + 1, j + 1, k + 1}};
-        const Box box = local_box(lattice, cell);
-        const double share = near.empty() ? 0.0 : solid_volume(near, box) / box.volume();
-        *fractions++ = share < kRounding ? 0.0 : share > 1 - kRounding ? 1.0 : share;
+      for (std::int64_t k = block.lo[2]; k < block.hi[2]; ++k, ++fractions) {
+        const Box box = local_box(lattice, {{i, j, k}, {i + 1, j + 1, k + 1}});
+        const double volume = *fractions + (near.empty() ? 0.0 : solid_volume(near, box));
+        const double share = volume / box.volume();
+        *fractions = share < kRounding ? 0.0 : share > 1 - kRounding ? 1.0 : share;
       }
 }
 

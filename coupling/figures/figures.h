@@ -13,6 +13,8 @@
 #include "coupling/figures/formats.h"
 #include "coupling/io/particle_frame.h"
 #include "voxel/sample.h"
+#include "voxel/scales.h"
+#include "voxel/solids.h"
 
 namespace interstice::figures {
 
@@ -23,6 +25,7 @@ struct SlicePanel {
   voxel::Samples samples;
   bool averaged = false;            // draw void_fraction_averaged instead of void_fraction
   std::vector<io::WallPose> walls;  // outlines, cut by the slice
+  voxel::Solids solids = {};        // further ones
 };
 struct SliceFigure {
   std::string title;
@@ -81,6 +84,14 @@ struct MapFigure {
   double lo = 0, hi = 1;
 };
 void write_map(const std::filesystem::path& png, const MapFigure& figure, const Formats& formats = {});
+
+/// Void fraction against averaging length: mean, standard deviation and extremes, and below them the standard
+/// deviation beside that of grains placed at random and of one grain more or less.
+struct ScaleFigure {
+  std::string title, note;
+  voxel::ScaleReport report;
+};
+void write_scales(const std::filesystem::path& png, const ScaleFigure& figure, const Formats& formats = {});
 
 /// True when gnuplot is found on PATH. Where it is not, callers skip their figures and say so once.
 bool plotting_available();

@@ -20,7 +20,7 @@ struct Drawing {
   double width = 0, height = 0;  // in units of the layout, of which 1100 make the width of a page
   std::string data;              // NAME.dat; `data` in the script names it
   std::string script;            // gnuplot commands, without terminal and output
-  Formats formats = {};               // NAME.pdf and NAME.svg beside the PNG
+  Formats formats = {};          // NAME.pdf and NAME.svg beside the PNG
 };
 
 /// Writes data and script, runs gnuplot in their folder, and puts each picture in place when it is whole.

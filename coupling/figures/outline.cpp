@@ -81,6 +81,13 @@ std::string path_of(const Outline& outline, Point scale) {
 
 }  // namespace
 
+Outline clipped(const Outline& polygon, const Extent& extent) {
+  Outline inside = clipped(polygon, 1, 0, extent.hi[0]);
+  inside = clipped(inside, -1, 0, -extent.lo[0]);
+  inside = clipped(inside, 0, 1, extent.hi[1]);
+  return clipped(inside, 0, -1, -extent.lo[1]);
+}
+
 std::vector<Outline> cut(const std::vector<io::WallPose>& walls, int axis, double at, std::array<int, 2> axes,
                          const Extent& extent) {
   std::vector<Outline> outlines;

@@ -19,6 +19,9 @@ struct Extent {
   double height() const { return hi[1] - lo[1]; }
 };
 
+/// What of a polygon lies inside `extent` (of one that is not convex, parts may stay joined along its edges).
+Outline clipped(const Outline& polygon, const Extent& extent);
+
 /// The solid of `walls` in the plane axis = `at`, inside `extent`; `axes` are the figure's two axes.
 std::vector<Outline> cut(const std::vector<io::WallPose>& walls, int axis, double at, std::array<int, 2> axes,
                          const Extent& extent);

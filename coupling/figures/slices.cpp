@@ -9,6 +9,7 @@
 #include "coupling/figures/gnuplot.h"
 #include "coupling/figures/layout.h"
 #include "coupling/figures/outline.h"
+#include "coupling/figures/section.h"
 
 namespace interstice::figures {
 namespace {
@@ -256,9 +257,10 @@ std::string script_of(const SliceFigure& figure, const std::vector<Panel>& panel
     script += i == 0 ? colour_bar(canvas, bar, figure.colour_label) + level_marks(figure, canvas, bar)
                      : "unset colorbox\n";
     script += axes_of(panel, canvas);
-    script += hatched(
-        cut(panel.source->walls, s.normal_axis, s.center.front()[s.normal_axis], panel.axes, panel.extent),
-        panel.scale());
+    const double at = s.center.front()[s.normal_axis];
+    script += hatched(cut(panel.source->walls, s.normal_axis, at, panel.axes, panel.extent), panel.scale());
+    script +=
+        hatched(sections(panel.source->solids, s.normal_axis, at, panel.axes, panel.extent), panel.scale());
     script += plot_of(figure, panel, i) + "unset label; unset object; unset arrow\n";
   }
   return script + "unset multiplot\n";

@@ -62,8 +62,11 @@ void add_origin(Json& json, const voxel::Field& field, std::size_t spheres,
   json["method"] = name_of(request.computed);
   json["overlap"] = request.computed.overlap == voxel::Overlap::united ? "union" : "sum";
   json["periodic"] = request.computed.periodic;
+  json["walls"] = request.walls;
   json["average_m"] =
       request.computed.average_length > 0 ? Json(request.computed.average_length) : Json(nullptr);
+  json["average_window"] =
+      request.computed.average_length > 0 ? Json(name_of(request.computed.average_window)) : Json(nullptr);
 }
 
 void add_sums(Json& json, const voxel::Field& field, bool mass_known) {
@@ -104,7 +107,9 @@ void add_layers(Json& json, const FieldFilesRequest& request,
 }
 
 Json scales_of(const voxel::ScaleReport& report) {
-  return {{"grain_volume_m3", report.grain_volume},
+  return {{"window", name_of(report.window)},
+          {"grain_volume_m3", report.grain_volume},
+          {"median_diameter_m", report.median_diameter},
           {"random_length_m", or_null(report.random_length)},
           {"many_grains_length_m", or_null(report.many_grains_length)},
           {"lengths", report.rows.size()}};
@@ -153,7 +158,9 @@ void take_samples(const voxel::Field& field, const voxel::SpheresView& spheres, 
   for (const auto& line : request.lines)
     result.lines.push_back(voxel::sample_line(field, line.axis, line.at));
   if (request.layers) result.layers = voxel::layer_columns(spheres, solids, *request.layers);
-  if (request.scales) result.scales = voxel::void_scales(field, spheres, request.computed.periodic);
+  if (request.scales)
+    result.scales =
+        voxel::void_scales(field, spheres, request.computed.periodic, request.computed.average_window);
 }
 
 void write_tables(const std::filesystem::path& folder, const FieldFilesRequest& request,

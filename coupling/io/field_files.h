@@ -30,6 +30,7 @@ struct FieldFilesRequest {
   double time = std::numeric_limits<double>::quiet_NaN();  // [s]
   double seconds = 0;                                      // what computing the field took
   std::string version;                                     // of this program
+  std::vector<std::string> walls;                          // names of the solids around the grains
 
   // What to write, and where.
   std::string stem = "fields";  // STEM.vdb and STEM.vti, straight in the folder

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <cmath>
 #include <iterator>
 
@@ -83,11 +84,11 @@ std::string csv_of(const voxel::LayerProfile& profile, int axis) {
 
 std::string csv_of(const voxel::ScaleReport& report) {
   Text out;
-  out.append(
-      std::string_view("length_m,cubes,independent_cubes,grains_per_cube,void_fraction_mean,void_fraction_sd,"
-                       "void_fraction_min,void_fraction_max,sd_random,sd_one_grain\n"));
+  out.append(std::string_view(
+      "length_m,windows,independent_windows,grains_per_window,void_fraction_mean,void_fraction_sd,"
+      "void_fraction_min,void_fraction_max,sd_random,sd_one_grain\n"));
   for (const voxel::ScaleRow& row : report.rows) {
-    fmt::format_to(std::back_inserter(out), "{},{},", row.length, row.cubes);
+    fmt::format_to(std::back_inserter(out), "{},{},", row.length, row.windows);
     for (const double value :
          {row.independent, row.grains, row.mean, row.sd, row.min, row.max, row.sd_random})
       add(out, value);
@@ -102,7 +103,9 @@ std::string sentence_of(const voxel::ScaleReport& report) {
       if (row.length == length) return &row;
     return nullptr;
   };
-  std::string text = "void fractions vary over cubes ";
+  constexpr std::array<const char*, 3> kPlural{"cubes", "spheres", "Gaussians"};
+  std::string text =
+      fmt::format("void fractions vary over {} ", kPlural[static_cast<std::size_t>(report.window)]);
   if (const auto* row = row_at(report.random_length))
     text += fmt::format(
         "by no more than that many grains placed at random would (standard deviation {:.3g}) from "
@@ -113,12 +116,13 @@ std::string sentence_of(const voxel::ScaleReport& report) {
         "by more than that many grains placed at random would at all lengths up to a third of the box or so";
   if (const auto* row = row_at(report.many_grains_length))
     text += fmt::format(
-        "; from {:.4g} um on (some {:.3g} grains a cube, standard deviation {:.3g}) one grain more or "
+        "; from {:.4g} um on (some {:.3g} grains each, standard deviation {:.3g}) one grain more or "
         "less changes them by less than their standard deviation",
         1e6 * row->length, row->grains, row->sd);
   else
     text +=
-        "; at no length with enough cubes in the box do they stand for more than the place of single grains";
+        "; at no length with enough of them in the box do they stand for more than the place of single "
+        "grains";
   return text;
 }
 

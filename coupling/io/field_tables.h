@@ -20,7 +20,7 @@ std::string csv_of(const voxel::LayerColumns& columns);
 /// The layer's numbers along x (axis 0) or y (axis 1), averaged over the other.
 std::string csv_of(const voxel::LayerProfile& profile, int axis);
 
-/// length_m,cubes,independent_cubes,grains_per_cube,void_fraction_mean,..._sd,..._min,..._max,sd_random,
+/// length_m,windows,independent_windows,grains_per_window,void_fraction_mean,..._sd,..._min,..._max,sd_random,
 /// sd_one_grain; a row per averaging length.
 std::string csv_of(const voxel::ScaleReport& report);
 

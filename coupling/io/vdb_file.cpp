@@ -15,6 +15,8 @@ void add_origin(openvdb::MetaMap& meta, const FieldFilesRequest& request) {
   meta.insertMeta("version", openvdb::StringMetadata(request.version));
   if (request.computed.average_length > 0) {
     meta.insertMeta("average", openvdb::DoubleMetadata(request.computed.average_length));
+    meta.insertMeta("average_window",
+                    openvdb::StringMetadata(std::string(name_of(request.computed.average_window))));
   }
   if (std::isfinite(request.time)) meta.insertMeta("time", openvdb::DoubleMetadata(request.time));
 }
@@ -22,7 +24,8 @@ void add_origin(openvdb::MetaMap& meta, const FieldFilesRequest& request) {
 // Those of the file as a whole: a copy of what all grids share.
 openvdb::MetaMap file_metadata(const openvdb::GridBase& grid) {
   openvdb::MetaMap meta;
-  for (const char* name : {"box", "voxel", "method", "source", "version", "average", "time"}) {
+  for (const char* name :
+       {"box", "voxel", "method", "source", "version", "average", "average_window", "time"}) {
     if (const auto value = grid[name]) meta.insertMeta(name, *value);
   }
   meta.insertMeta("units", openvdb::StringMetadata("m, s; fractions per cell volume; densities in kg/m^3"));

@@ -114,6 +114,8 @@ Field read_field(const TableReader& table) {
     table.error("average", fmt::format("{} is less than a voxel", format_length(field.average)),
                 fmt::format("at least {} (or 0 m for none) is allowed", format_length(field.voxel)),
                 "average over several voxels");
+  field.average_window = window_named(table.choice("average_window")).value_or(WindowShape::box);
+  field.scales = table.boolean("scales");
   field.periodic_from_domain = table.boolean("periodic_from_domain");
   check_voxels(table, field);
   read_selectors(table, field);

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "base/averaging_window.h"
 #include "base/shapes.h"
 
 namespace interstice::scene {
@@ -198,6 +199,8 @@ struct Field {
   Box box;
   std::optional<double> every;  // interval [s]; also at the end of each phase, always
   double average = 0;           // averaging length [m]; 0: none
+  WindowShape average_window = WindowShape::box;
+  bool scales = false;  // also void fraction against averaging length
   std::vector<Slice> slices;
   std::vector<Line> lines;
   FieldLayers layers;  // default: the height of the box

@@ -242,6 +242,8 @@ void write_field(Writer& out, const Field& field) {
   out.raw("box", box(field.box));
   if (field.every) out.quantity("every", *field.every, Dimension::time);
   out.quantity("average", field.average, Dimension::length);
+  out.text("average_window", name_of(field.average_window));
+  out.flag("scales", field.scales);
   std::vector<std::string> slices, lines;
   for (const Slice& slice : field.slices)
     slices.push_back(

@@ -21,6 +21,7 @@ io::FieldFilesRequest request_of(const scene::Field& field) {
   io::FieldFilesRequest request;
   request.computed.lattice = voxel::cubic_lattice(field.box, field.voxel);
   request.computed.average_length = field.average;
+  request.computed.average_window = field.average_window;
   return request;
 }
 
@@ -61,6 +62,7 @@ double field_memory(const io::FieldFilesRequest& request, double cells, double s
   const bool averaged = request.computed.average_length > 0;
   double bytes = kBytesOnce + kBytesPerCell * cells + kBytesPerSphere * spheres;
   if (averaged) bytes += kBytesPerAveragedCell * all;
+  if (averaged && request.computed.average_window == WindowShape::sphere) bytes += 8 * all;  // sums aside
   if (request.vti && all <= static_cast<double>(request.vti_most_cells)) bytes += (averaged ? 24 : 12) * all;
   return bytes;
 }

@@ -61,7 +61,9 @@ void FieldOutput::write_field(const Snapshot& snapshot, const Snapshot::Due& due
   request.computed.lattice = voxel::cubic_lattice(f.box, f.voxel);
   if (f.periodic_from_domain) request.computed.periodic = snapshot.frame.periodic;
   request.computed.average_length = f.average;
+  request.computed.average_window = f.average_window;
   const voxel::Field field = voxel::compute_field(spheres, solids, request.computed);
+  for (const io::WallPose& w : snapshot.frame.walls) request.walls.push_back(w.name);
   request.box = f.box;
   request.source = scene_.file;
   request.frame = due.number;
@@ -73,6 +75,7 @@ void FieldOutput::write_field(const Snapshot& snapshot, const Snapshot::Due& due
   request.tables = request.stem;
   request.slices = f.slices;
   request.lines = f.lines;
+  request.scales = f.scales;
   voxel::LayerRequest layers;
   layers.box = f.box;
   layers.box.lo.z = f.layers.z_lo, layers.box.hi.z = f.layers.z_hi;

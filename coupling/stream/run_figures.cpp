@@ -103,6 +103,14 @@ void draw_layer(const scene::Field& field, const std::filesystem::path& folder,
 
 std::string length(double metres) { return fmt::format("{:.4g} um", metres * kMicro); }
 
+/// "averaged over 120 um", with the window's name where it is no cube.
+std::string averaged_name(const scene::Field& field) {
+  return fmt::format("averaged over {}{}", length(field.average),
+                     field.average_window == WindowShape::box
+                         ? std::string()
+                         : fmt::format(" ({})", name_of(field.average_window)));
+}
+
 }  // namespace
 
 void draw_grains(const scene::Scene& scene, const std::filesystem::path& folder,
@@ -132,9 +140,8 @@ void draw_field(const scene::Field& field, const std::filesystem::path& folder,
     figures::SliceFigure figure;
     figure.title =
         fmt::format("Void fraction at the end of phase '{}', t = {:.4g} ms", phase, frame.time * kMilli);
-    figure.note =
-        fmt::format("voxel {}, {}, exact sphere volumes", length(field.voxel),
-                    averaged ? "averaged over " + length(field.average) : "per voxel, not averaged");
+    figure.note = fmt::format("voxel {}, {}, exact sphere volumes", length(field.voxel),
+                              averaged ? averaged_name(field) : "per voxel, not averaged");
     for (std::size_t s = 0; s < files.slices.size(); ++s) {
       figures::SlicePanel panel;
       panel.title =
@@ -148,6 +155,14 @@ void draw_field(const scene::Field& field, const std::filesystem::path& folder,
     figures::write_slices(
         folder / fmt::format("{}-slices-{}{}.png", field.name, phase, averaged ? "-averaged" : ""), figure);
   }
+  if (files.scales && !files.scales->rows.empty())
+    figures::write_scales(
+        folder / fmt::format("{}-scales-{}.png", field.name, phase),
+        {fmt::format("Void fraction against averaging length at the end of phase '{}'", phase),
+         fmt::format("voxel {}, exact sphere volumes; all windows inside the box with at "
+                     "least half of their volume outside walls",
+                     length(field.voxel)),
+         *files.scales});
   if (files.lines.empty()) return;
   std::vector<CurveFigure> panels;
   for (std::size_t l = 0; l < files.lines.size(); ++l) {
@@ -165,7 +180,7 @@ void draw_field(const scene::Field& field, const std::filesystem::path& folder,
     figure.y_range = {{0, 1.02}};
     figure.curves.push_back({"per voxel (" + length(field.voxel) + ")", at, line.void_fraction});
     if (!line.void_fraction_averaged.empty()) {
-      figure.curves.push_back({"averaged over " + length(field.average), at, line.void_fraction_averaged});
+      figure.curves.push_back({averaged_name(field), at, line.void_fraction_averaged});
     }
     panels.push_back(std::move(figure));
   }

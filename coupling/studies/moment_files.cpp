@@ -109,7 +109,10 @@ std::string how_computed(const FieldMoment& moment) {
   }
   if (const auto m = summary.find("method"); m != summary.end() && m->is_string()) add(m->get<std::string>());
   if (const auto l = summary.find("average_m"); l != summary.end() && l->is_number()) {
-    add("averaged fields over " + length(l->get<double>()));
+    const auto window = summary.find("average_window");
+    const bool named = window != summary.end() && window->is_string() && *window != "box";
+    add("averaged fields over " + length(l->get<double>()) +
+        (named ? fmt::format(" ({})", window->get<std::string>()) : std::string()));
   }
   return text;
 }

@@ -206,11 +206,55 @@ TEST_F(Voids, ScalesAreATableAndASentence) {
   const Outcome outcome = call(sample("two-frames.dump") + to_out() + "--voxel 20um --scales --json");
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   const std::string table = slurp(fs::path(out()) / "two-frames" / "scales.csv");
-  EXPECT_EQ(table.rfind("length_m,cubes,independent_cubes,grains_per_cube,void_fraction_mean", 0), 0u);
+  EXPECT_EQ(table.rfind("length_m,windows,independent_windows,grains_per_window,void_fraction_mean", 0), 0u);
   const Json s = Json::parse(outcome.out);
   EXPECT_EQ(static_cast<std::int64_t>(std::count(table.begin(), table.end(), '\n')),
             1 + s["scales"]["lengths"].get<std::int64_t>());
   EXPECT_NE(s["messages"].dump().find("void fractions vary over cubes"), std::string::npos);
+}
+
+TEST_F(Voids, WindowsAreNamedInTheSummary) {
+  for (const char* window : {"box", "sphere", "gaussian"}) {
+    const Outcome outcome = call(sample("two-frames.dump") + to_out() +
+                                 "--voxel 20um --average 100um --scales --overwrite --no-figures --json "
+                                 "--average-window " +
+                                 window);
+    ASSERT_EQ(outcome.status, 0) << outcome.err;
+    const Json s = Json::parse(outcome.out);
+    EXPECT_EQ(s["average_window"], window);
+    EXPECT_EQ(s["scales"]["window"], window);
+  }
+}
+
+TEST_F(Voids, SolidsLeaveTheirVolumeOut) {
+  // an STL tetrahedron with legs of 0.2 mm, a ball, a cylinder, a box and a plane, apart from each other
+  std::ofstream(folder_ / "corner.stl") << R"(solid corner
+facet normal 0 0 -1 outer loop vertex 0 0 0 vertex 0 .2 0 vertex .2 0 0 endloop endfacet
+facet normal 0 -1 0 outer loop vertex 0 0 0 vertex .2 0 0 vertex 0 0 .2 endloop endfacet
+facet normal -1 0 0 outer loop vertex 0 0 0 vertex 0 0 .2 vertex 0 .2 0 endloop endfacet
+facet normal 1 1 1 outer loop vertex .2 0 0 vertex 0 .2 0 vertex 0 0 .2 endloop endfacet
+endsolid)";
+  std::ofstream(folder_ / "grain.csv") << "x [mm],y [mm],z [mm],radius [mm]\n0.5,0.5,0.5,0.05\n";
+  const std::string grain =
+      (folder_ / "grain.csv").string() + to_out() +
+      "--voxel 30um --box 0mm,0.9mm,0mm,0.9mm,0mm,0.9mm --no-figures --json --overwrite ";
+  const Outcome outcome =
+      call(grain + "--walls " + at("corner.stl") +
+           "@mm --solid ball:0.7mm,0.2mm,0.2mm,0.1mm "
+           "--solid cylinder:0.2mm,0.6mm,0.7mm,0.2mm,0.85mm,0.7mm,0.08mm "
+           "--solid box:0.7mm,0.8mm,0.7mm,0.9mm,0.1mm,0.2mm --solid plane:0mm,0mm,0.89mm,0,0,-2");
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const Json s = Json::parse(outcome.out);
+  const double pi = 3.14159265358979323846;
+  const double solids = .008 / 6 + 4 * pi / 3 * .001 + pi * .0064 * .25 + .1 * .2 * .1 + .81 * .01;
+  EXPECT_NEAR(s["available_volume_m3"].get<double>() / (1e-9 * (.729 - solids)), 1, 1e-12);
+  EXPECT_EQ(s["walls"].size(), 5u);
+  EXPECT_EQ(outcome.err, "");
+  const Outcome small = call(grain + "--walls " + at("corner.stl") + "@um");
+  ASSERT_EQ(small.status, 0) << small.err;
+  EXPECT_NE(small.err.find("check its unit"), std::string::npos) << small.err;
+  const Outcome large = call(grain + "--walls " + at("corner.stl") + "@m");
+  EXPECT_NE(large.err.find("check its unit"), std::string::npos) << large.err;
 }
 
 TEST_F(Voids, ABoxThatIsNoMultipleIsExtendedUpwardAndSaidSo) {
@@ -308,7 +352,17 @@ TEST_F(Voids, WrongUseIsRefusedBeforeAnythingIsWritten) {
   expect_refused(dump + "--method cloud", "kernel:LENGTH");
   expect_refused(dump + "--overlap most", "union");
   expect_refused(dump + "--overlap union --method centre", "--method exact");
-  expect_refused(dump + "--walls tool.stl@mm", "not in this version");
+  expect_refused(dump + "--walls tool.stl", "says no unit of length");
+  expect_refused(dump + "--walls tool.stl@furlong", "furlong");
+  expect_refused(dump + "--walls missing.stl@mm", "missing.stl: cannot be read");
+  expect_refused(dump + "--solid cone:1mm", "no such solid");
+  expect_refused(dump + "--solid ball:0mm,0mm,0mm", "3 values where 4 are due");
+  expect_refused(dump + "--solid ball:0mm,0mm,0mm,-1mm", "radius is not positive");
+  expect_refused(dump + "--solid ball:0mm,0mm,0mm,1", "--solid");
+  expect_refused(dump + "--solid cylinder:0mm,0mm,0mm,0mm,0mm,0mm,1mm", "at the same place");
+  expect_refused(dump + "--solid plane:0mm,0mm,0mm,0,0,0", "no direction");
+  expect_refused(dump + "--average 60um --average-window ball", "box, sphere or gaussian");
+  expect_refused(dump + "--average-window sphere", "nothing to average");
   expect_refused(dump + "--frame 2", "0 to 1");
   expect_refused(dump + "--frame first", "--frame");
   expect_refused(dump + "--periodic w", "--periodic");

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 #include <openvdb/openvdb.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "base/error.h"
@@ -66,7 +67,7 @@ void expect_as_by_hand(const Spheres& spheres, const Solids& solids, FieldReques
   EXPECT_GE(report.rows.back().length, 200e-6 - 1e-12);
   for (const ScaleRow& row : report.rows) {
     const Statistics s = by_hand(field, std::llround(row.length / h), request.periodic);
-    EXPECT_EQ(row.cubes, s.cubes) << row.length;
+    EXPECT_EQ(row.windows, s.cubes) << row.length;
     EXPECT_NEAR(row.mean, s.mean, 1e-10) << row.length;
     EXPECT_NEAR(row.sd, s.sd, 1e-8) << row.length;
     EXPECT_NEAR(row.min, s.min, 1e-10) << row.length;
@@ -125,6 +126,61 @@ TEST(Scales, OfACrystalFallFasterThanRandom) {
     if (std::llround(row.length / 4e-6) == 5) {
       EXPECT_LT(row.sd, 1e-6);
     }
+}
+
+TEST(Scales, OfOtherWindowsAreTheirAveragesStatistics) {
+  // against averaged grids of the same window, at the centres that count
+  const Box box{{0, 0, 0}, {150e-6, 130e-6, 170e-6}};
+  const Spheres spheres = random_spheres(80, box, 5e-6, 15e-6, 8);
+  for (const WindowShape shape : {WindowShape::sphere, WindowShape::gaussian})
+    for (const bool periodic : {false, true}) {
+      FieldRequest request = request_for(box, 10e-6);
+      request.periodic = {periodic, periodic, false};
+      const Field field = compute_field(spheres.view(), {}, request);
+      const ScaleReport report = void_scales(field, spheres.view(), request.periodic, shape);
+      for (const std::int64_t edge : {1, 3, 5, 7}) {
+        request.average_length = static_cast<double>(edge) * 10e-6;
+        request.average_window = shape;
+        const Field averaged = compute_field(spheres.view(), {}, request);
+        const std::int64_t margin = edge / 2, side = periodic ? 0 : margin;
+        double sum = 0, squares = 0, count = 0, least = 2;
+        for (std::int64_t i = side; i < 15 - side; ++i)
+          for (std::int64_t j = side; j < 13 - side; ++j)
+            for (std::int64_t k = margin; k < 17 - margin; ++k) {
+              const double v = static_cast<double>(averaged.void_fraction_averaged->tree().getValue(
+                  {static_cast<int>(i), static_cast<int>(j), static_cast<int>(k)}));
+              sum += v, squares += v * v, ++count, least = std::min(least, v);
+            }
+        const auto row = std::find_if(report.rows.begin(), report.rows.end(), [&](const ScaleRow& r) {
+          return std::llround(r.length / 10e-6) == edge;
+        });
+        ASSERT_NE(row, report.rows.end());
+        EXPECT_EQ(static_cast<double>(row->windows), count) << edge;
+        EXPECT_NEAR(row->mean, sum / count, 2e-7) << edge;  // averaged grids are floats
+        EXPECT_NEAR(row->sd, std::sqrt(squares / count - sum / count * (sum / count)), 2e-6) << edge;
+        EXPECT_NEAR(row->min, least, 2e-7) << edge;
+      }
+    }
+}
+
+TEST(Scales, OfIndependentGrainsAreTheRandomOnesOverAnyWindow) {
+  // sd_random takes a Gaussian for the box of like spread and a sphere for its volume; grains of a finite
+  // size add to a window's own, which at ten grains' diameters is a few percent, as much again by the places
+  // of the grains
+  const Box box{{0, 0, 0}, {1e-3, 1e-3, 1e-3}};
+  const Spheres spheres = random_spheres(30000, box, 5e-6, 15e-6, 11);
+  FieldRequest request = request_for(box, 12.5e-6);
+  request.periodic = {true, true, true};
+  const Field field = compute_field(spheres.view(), {}, request);
+  for (const WindowShape shape : {WindowShape::sphere, WindowShape::gaussian}) {
+    int checked = 0;
+    for (const ScaleRow& row : void_scales(field, spheres.view(), request.periodic, shape).rows) {
+      if (row.length < 150e-6 || row.independent < 30) continue;
+      EXPECT_NEAR(row.sd / row.sd_random, 1, 0.12) << name_of(shape) << ' ' << row.length;
+      ++checked;
+    }
+    EXPECT_GE(checked, 2);
+  }
 }
 
 TEST(Scales, RefuseWhatDoesNotFit) {

@@ -218,6 +218,8 @@ const Change kChanges[] = {
     {"[\"0 mm\", \"0.1 mm\"]]", "[\"0 mm\", \"9 mm\"]]", "",
      "fields.layer.box: 0 m to 9 mm reaches outside the domain along z"},
     {"average = \"120 um\"", "average = \"10 um\"", "", "10 um is less than a voxel; at least 17.3 um"},
+    {"average = \"120 um\"", "average_window = \"ball\"", "",
+     "\"ball\" is unknown; allowed: box, sphere, gaussian; choose one of them"},
     {"\"x=1 mm\"", "\"x=5 mm\"", "",
      "fields.layer.slices.1: x = 5 mm is outside the field's box; 0 m to 2 mm is allowed"},
     {"\"x=1 mm\"", "\"x=5\"", "", "fields.layer.slices.1: 5 has no unit"},
