@@ -7,6 +7,7 @@
 #include <exception>
 
 #include "coupling/figures/figures.h"
+#include "coupling/figures/quantity_slices.h"
 #include "coupling/scene/format_quantity.h"
 
 namespace interstice::apps {
@@ -44,6 +45,18 @@ void draw_slice(const std::filesystem::path& png, const scene::Slice& slice, con
     if (!levels.empty()) figure.note += fmt::format("; lines: averaged void fraction {}", levels);
   }
   figures::write_slices(png, figure, f.formats);
+}
+
+void draw_quantities(const std::filesystem::path& folder, const VoidsFigures& f) {
+  figures::QuantitySlices figure{
+      {}, voxel_name(f.request), averaged_name(f.request), note_of(f.request), f.frame.walls, f.solids};
+  for (std::size_t i = 0; i < f.request.slices.size(); ++i) {
+    const auto& slice = f.request.slices[i];
+    const std::string place =
+        fmt::format("{} = {}{}", "xyz"[slice.axis], format_length(slice.at), moment_of(f.request));
+    figure.slices.push_back({io::name_of(slice), place, &f.result.slices[i]});
+  }
+  figures::write_quantity_slices(folder, figure, f.formats);
 }
 
 void draw_line(const std::filesystem::path& png, const scene::Line& line, const voxel::Samples& samples,
@@ -136,6 +149,7 @@ std::string draw_voids(const std::filesystem::path& folder, const VoidsFigures& 
       const auto& slice = f.request.slices[i];
       draw_slice(folder / "slices" / (io::name_of(slice) + ".png"), slice, f.result.slices[i], f);
     }
+    draw_quantities(folder / "slices", f);
     for (std::size_t i = 0; i < f.request.lines.size(); ++i) {
       const auto& line = f.request.lines[i];
       draw_line(folder / "lines" / (io::name_of(line) + ".png"), line, f.result.lines[i], f);

@@ -16,6 +16,13 @@ void add_voids_flags(CLI::App& c, VoidsWords& words) {
                "exact, centre, divided[:LEAST_VOID], subsample:N or kernel:LENGTH (docs/METHODS.md)");
   c.add_option("--overlap", words.overlap,
                "how places count that spheres share: sum (once for each) or union (once)");
+  c.add_option("--quantities", words.quantities,
+               "also velocity, temperature, diameter, coordination, stress, bonded: those wanted, such as "
+               "velocity,coordination (docs/METHODS.md)");
+  c.add_option(
+       "--classes", words.classes,
+       "solid fraction by class of grains: size:DIAMETER,..., such as size:20um,40um, material or layer")
+      ->capture_default_str();
   c.add_option("--average", words.average, "also fields averaged over this length, such as 120um");
   c.add_option(
       "--average-window", words.average_window,

@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "coupling/scene/format_quantity.h"
 #include "coupling/stream/field_memory.h"
+#include "coupling/stream/touching_grains.h"
 #include "voxel/methods.h"
 #include "voxel/scales.h"
 
@@ -71,6 +72,25 @@ void check_memory(const FramePlan& plan, const std::string& where) {
                     1e-9 * plan.memory, n[0], n[1], n[2], 1e-9 * memory));
 }
 
+/// Columns are looked for now, so that nothing is written for a frame that lacks them. A coordination can be
+/// found from the grains' places.
+void plan_quantities(const io::ParticleFrame& frame, const VoidsOptions& options, const std::string& where,
+                     FramePlan& plan) {
+  auto& computed = plan.request.computed;
+  try {
+    plan.classes = io::classify(frame, options.recipe.classes);
+    io::apply(options.recipe, plan.classes, computed);
+    voxel::QuantityRequest in_file = computed.quantities;
+    in_file.groups.clear();
+    in_file.coordination = in_file.coordination && !frame.coordination.empty();
+    voxel::check_quantities(io::view_of(frame), in_file);
+    if (computed.quantities.coordination && frame.coordination.empty())
+      stream::check_touching(frame, computed);
+  } catch (const InputError& error) {
+    wrong(where, error.what());
+  }
+}
+
 void check_method_here(const voxel::FieldRequest& request, const VoidsOptions& options,
                        const std::string& where) {
   try {
@@ -78,7 +98,7 @@ void check_method_here(const voxel::FieldRequest& request, const VoidsOptions& o
   } catch (const InputError& error) {
     wrong(where, error.what());
   }
-  if (options.method.scales && request.lattice.cells() > voxel::kMostScaleCells) {
+  if (options.scales && request.lattice.cells() > voxel::kMostScaleCells) {
     wrong(where,
           fmt::format("--scales: the box has {} voxels; at most {}; take a larger --voxel or a smaller --box",
                       request.lattice.cells(), voxel::kMostScaleCells));
@@ -115,14 +135,16 @@ FramePlan plan_frame(const io::ParticleFrame& frame, const VoidsOptions& options
     wrong(where, error.what());
   }
   computed.periodic = options.periodic;
-  apply(options.method, computed);
+  plan_quantities(frame, options, where, plan);
   computed.precision = options.precision;
+  computed.average_length = options.average;
+  computed.average_window = options.window;
   computed.density = options.density;
   check_method_here(computed, options, where);
   plan.memory = stream::field_memory(request, stream::cells_reached(frame.radius, computed),
                                      static_cast<double>(frame.size()));
   check_memory(plan, where);
-  request.scales = options.method.scales;
+  request.scales = options.scales;
   check_places(computed.lattice, options, where);
   request.slices = options.slices;
   request.lines = options.lines;
@@ -164,11 +186,6 @@ void wrap(io::ParticleFrame& frame, const voxel::FieldRequest& request) {
       if (at < box.lo[a] || at >= box.hi[a]) at -= period * std::floor((at - box.lo[a]) / period);
     }
   }
-}
-
-voxel::SpheresView view_of(const io::ParticleFrame& frame) {
-  return {frame.size(),   frame.x.data(),      frame.y.data(),
-          frame.z.data(), frame.radius.data(), frame.density.empty() ? nullptr : frame.density.data()};
 }
 
 }  // namespace interstice::apps

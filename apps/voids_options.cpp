@@ -94,6 +94,41 @@ void read_columns(const std::string& text, VoidsOptions& options) {
   }
 }
 
+/// Runs one of field_recipe.h's readers; throws InputError led by the option's name.
+template <class Read>
+void read_words(const char* key, const Read& read) {
+  scene::QuantityProblem problem;
+  if (!read(problem))
+    throw InputError(fmt::format("{}: {}; {}; {}", key, problem.what, problem.allowed, problem.remedy));
+}
+
+void read_recipe(const VoidsWords& words, scene::FieldRecipe& recipe) {
+  read_words("--method",
+             [&](auto& problem) { return scene::try_read_method(words.method, recipe, problem); });
+  read_words("--overlap", [&](auto& problem) {
+    return scene::try_read_overlap(words.overlap, recipe, problem) && scene::goes_together(recipe, problem);
+  });
+}
+
+void read_quantities(const VoidsWords& words, scene::FieldRecipe& recipe) {
+  if (words.quantities.empty()) return;
+  for (const auto& word : parts_of(words.quantities, ','))
+    read_words("--quantities",
+               [&](auto& problem) { return scene::try_read_field_quantity(word, recipe, problem); });
+}
+
+/// After `average` and `scales`.
+void read_window(const std::string& text, VoidsOptions& options) {
+  const auto window = window_named(text);
+  if (!window)
+    throw InputError("--average-window: " + text +
+                     " is no window; box, sphere or gaussian; leave the option out for box");
+  if (!(options.average > 0) && !options.scales)
+    throw InputError("--average-window: " + text +
+                     " has nothing to average; --average LENGTH or --scales beside it; add one of them");
+  options.window = *window;
+}
+
 void read_contours(const std::string& text, VoidsOptions& options) {
   options.contours.clear();
   for (const auto& part : parts_of(text, ',')) {
@@ -162,16 +197,18 @@ VoidsOptions read_voids_options(const VoidsWords& words) {
   attempt(true, [&] { options.voxel = positive(words.voxel, Dimension::length, "--voxel"); });
   attempt(!words.box.empty(), [&] { options.box = scene::parse_box(words.box, "--box"); });
   attempt(true, [&] { read_periodic(words.periodic, options); });
-  attempt(true, [&] { read_method(words.method, options.method); });
+  attempt(true, [&] { read_recipe(words, options.recipe); });
+  attempt(true, [&] { read_quantities(words, options.recipe); });
   attempt(true, [&] {
-    read_overlap(words.overlap, options.method);
-    check_together(options.method);
+    read_words("--classes", [&](auto& problem) {
+      return scene::try_read_classes(words.classes, options.recipe, problem);
+    });
   });
-  options.method.scales = words.scales;
+  options.scales = words.scales;
   if (words.compute.precision == "mixed") options.precision = voxel::Precision::mixed;
   attempt(!words.average.empty(),
-          [&] { options.method.average = positive(words.average, Dimension::length, "--average"); });
-  attempt(!words.average_window.empty(), [&] { read_window(words.average_window, options.method); });
+          [&] { options.average = positive(words.average, Dimension::length, "--average"); });
+  attempt(!words.average_window.empty(), [&] { read_window(words.average_window, options); });
   for (const auto& slice : words.slices) {
     attempt(true, [&] {
       const auto parsed = scene::parse_slice(slice, "--slice");

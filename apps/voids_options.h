@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "apps/command.h"
-#include "apps/voids_method.h"
 #include "apps/voids_walls.h"
 #include "coupling/figures/formats.h"
 #include "coupling/io/particle_reader.h"
@@ -23,7 +22,7 @@ struct VoidsWords {
   std::vector<std::string> inputs;
   std::string output, voxel, box, periodic, method = "exact", overlap = "sum", average, average_window,
                                             layers, density, length_unit, frame = "last", columns,
-                                            figures = "png", contours, memory;
+                                            figures = "png", contours, memory, quantities, classes = "none";
   std::vector<std::string> walls, solids, slices, lines;
   bool overwrite = false, no_figures = false, scales = false;
   ComputeOptions compute;
@@ -38,7 +37,10 @@ struct VoidsOptions {
   double voxel = 0;        // edge [m]
   std::optional<Box> box;  // [m]
   std::array<bool, 3> periodic{false, false, false};
-  MethodOptions method;
+  scene::FieldRecipe recipe;
+  double average = 0;  // [m] averaging length; 0: none
+  WindowShape window = WindowShape::box;
+  bool scales = false;  // void fraction against averaging length as well
   WallOptions walls;
   voxel::Precision precision = voxel::Precision::real64;
   std::vector<scene::Slice> slices;

@@ -10,6 +10,7 @@
 #include "coupling/io/atomic_file.h"
 #include "coupling/io/vti_file.h"
 #include "coupling/scene/format_quantity.h"
+#include "coupling/stream/touching_grains.h"
 #include "coupling/studies/bed_profile.h"
 #include "coupling/studies/void_histogram.h"
 
@@ -41,8 +42,11 @@ FrameOutput write_frame(const FrameTask& task, io::ParticleFrame& frame, FramePl
   request.kind = task.kind;
   request.frame = task.number;
   request.version = kVersion;
-  const auto view = view_of(frame);
   const auto begin = std::chrono::steady_clock::now();
+  if (request.computed.quantities.coordination && frame.coordination.empty())
+    frame.coordination = stream::touching_grains(frame, request.computed);
+  auto view = io::view_of(frame);
+  if (!plan.classes.of.empty()) view.group = plan.classes.of.data();
   const voxel::Field field = voxel::compute_field(view, plan.solids, request.computed);
   request.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
 

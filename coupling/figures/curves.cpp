@@ -199,8 +199,8 @@ std::string panel_of(const std::vector<CurveFigure>& panels, std::size_t p, cons
   // Not gnuplot's own label, which long numbers on the axis push over the edge.
   commands += write(layout.canvas, {24, frame.top + 0.5 * frame.height,
                                     wrapped(panel.y_label, 15, frame.height), 15, "center rotate"});
-  commands += last ? "set format x '%g'\n" + x_label(layout.canvas, frame, along)
-                   : std::string("set format x ''\n");
+  commands +=
+      last ? "set format x '%g'\n" + x_label(layout.canvas, frame, along) : std::string("set format x ''\n");
   if (p > 0) commands += write(layout.canvas, {left, frame.top - 16, panel.title, 15, "left"});
   commands += marks_of(panel, layout, frame, x, p == 0);
   const bool legend = p == 0 || !same_names(panel, panels[p - 1]);

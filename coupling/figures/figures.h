@@ -26,6 +26,7 @@ struct SlicePanel {
   bool averaged = false;            // draw void_fraction_averaged instead of void_fraction
   std::vector<io::WallPose> walls;  // outlines, cut by the slice
   voxel::Solids solids = {};        // further ones
+  std::vector<double> values{};     // drawn instead, one a cell, NaN stays blank; empty: void fraction
 };
 struct SliceFigure {
   std::string title;

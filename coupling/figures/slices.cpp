@@ -35,6 +35,7 @@ struct Panel {
     return static_cast<std::size_t>(s.axes[0] == axes[0] ? h * s.columns + v : v * s.columns + h);
   }
   const std::vector<double>& values() const {
+    if (!source->values.empty()) return source->values;
     return source->averaged ? source->samples.void_fraction_averaged : source->samples.void_fraction;
   }
   Point scale() const { return {unit[0].per_metre, unit[1].per_metre}; }
@@ -51,6 +52,11 @@ void check(const SliceFigure& figure) {
     const auto cells = static_cast<std::size_t>(std::max<std::int64_t>(0, s.rows * s.columns));
     if (s.normal_axis < 0 || cells == 0 || s.center.size() != cells) {
       throw InputError(fmt::format("panel '{}' is no slice", panel.title));
+    }
+    if (!panel.values.empty()) {
+      if (panel.values.size() == cells) continue;
+      throw InputError(
+          fmt::format("panel '{}' has {} values for {} cells", panel.title, panel.values.size(), cells));
     }
     if ((panel.averaged ? s.void_fraction_averaged : s.void_fraction).size() != cells) {
       throw InputError(fmt::format("panel '{}' has no {}", panel.title,
@@ -215,14 +221,14 @@ std::string axes_of(const Panel& panel, const Canvas& canvas) {
 std::string plot_of(const SliceFigure& figure, const Panel& panel, std::size_t i) {
   std::string commands = fmt::format("plot data index {} using ", i);
   const bool grid = panel.n[0] > 1 && panel.n[1] > 1;
-  if (grid) {
-    // A bitmap leaves no seams between the cells; drawn cell by cell, cells without a value stay blank.
-    const auto& values = panel.values();
-    const bool blanks = std::any_of(values.begin(), values.end(), [](double v) { return !std::isfinite(v); });
-    commands += blanks ? "1:2:3 with image pixels" : "1:2:3 with image";
-  } else {  // gnuplot's image needs two rows and two columns
+  const auto& values = panel.values();
+  const bool blanks = std::any_of(values.begin(), values.end(), [](double v) { return !std::isfinite(v); });
+  if (grid && !blanks) {
+    commands += "1:2:3 with image";  // a bitmap leaves no seams between the cells, but knows no blanks
+  } else {  // nor one row or column; boxes reach a little into each other, or seams would show
+    const double half = grid ? 0.53 : 0.5;
     commands += fmt::format("1:2:({:.8g}):({:.8g}):3 with boxxyerror fillstyle solid 1.0 noborder lc palette",
-                            0.5 * panel.cell[0] * panel.scale()[0], 0.5 * panel.cell[1] * panel.scale()[1]);
+                            half * panel.cell[0] * panel.scale()[0], half * panel.cell[1] * panel.scale()[1]);
   }
   if (grid && contoured(figure, panel)) {  // white on black: seen on every colour of the map
     for (const char* line : {"'#000000' lw 1.8", "'#ffffff' lw 0.8"}) {

@@ -84,9 +84,40 @@ std::vector<double>* real_column(ParticleFrame& frame, Quantity quantity) {
       return &frame.wz;
     case Quantity::density:
       return &frame.density;
+    case Quantity::coordination:
+      return &frame.coordination;
+    default:
+      break;
+  }
+  if (!is_stress(quantity)) return nullptr;
+  return &frame.stress[static_cast<std::size_t>(quantity) - static_cast<std::size_t>(Quantity::stress_xx)];
+}
+
+std::vector<std::int32_t>* whole_column(ParticleFrame& frame, Quantity quantity) {
+  switch (quantity) {
+    case Quantity::material:
+      return &frame.material;
+    case Quantity::layer:
+      return &frame.layer;
+    case Quantity::bonded:
+      return &frame.bonded;
     default:
       return nullptr;
   }
+}
+
+std::vector<ColumnNames> with_field_columns(std::vector<ColumnNames> names) {
+  for (const auto& [quantity, name] : {std::pair{Quantity::layer, "layer"},
+                                       {Quantity::bonded, "bonded"},
+                                       {Quantity::coordination, "coordination"},
+                                       {Quantity::stress_xx, "stress_xx"},
+                                       {Quantity::stress_yy, "stress_yy"},
+                                       {Quantity::stress_zz, "stress_zz"},
+                                       {Quantity::stress_xy, "stress_xy"},
+                                       {Quantity::stress_yz, "stress_yz"},
+                                       {Quantity::stress_xz, "stress_xz"}})
+    names.push_back({quantity, name, {name}});
+  return names;
 }
 
 bool is_length(Quantity quantity) {
@@ -101,6 +132,10 @@ bool is_spin(Quantity quantity) {
 }
 bool is_size(Quantity quantity) {
   return quantity == Quantity::radius || quantity == Quantity::diameter || quantity == Quantity::volume;
+}
+
+bool is_stress(Quantity quantity) {
+  return quantity >= Quantity::stress_xx && quantity <= Quantity::stress_xz;
 }
 
 double radius_of(Quantity quantity, double size) {
@@ -235,7 +270,8 @@ namespace {
 
 void append_cell(std::string_view cell, const ColumnMap::Column& column, const Place& place,
                  ParticleFrame& frame, bool id_known, WrittenDigits* digits) {
-  if (column.quantity == Quantity::id || column.quantity == Quantity::material) {
+  std::vector<std::int32_t>* const whole_numbers = whole_column(frame, column.quantity);
+  if (column.quantity == Quantity::id || whole_numbers != nullptr) {
     std::int64_t whole = 0;
     if (!parse_number(cell, whole)) {
       bad_cell(place, column, cell, "is no whole number", "whole numbers only", frame, id_known);
@@ -246,7 +282,7 @@ void append_cell(std::string_view cell, const ColumnMap::Column& column, const P
       if (whole < INT32_MIN || whole > INT32_MAX) {
         bad_cell(place, column, cell, "is too large", "at most 2147483647", frame, id_known);
       }
-      frame.material.push_back(static_cast<std::int32_t>(whole));
+      whole_numbers->push_back(static_cast<std::int32_t>(whole));
     }
     return;
   }
@@ -308,9 +344,10 @@ std::int64_t sort_by_id(ParticleFrame& frame) {
       column = std::move(sorted);
     };
     for (auto* c : {&frame.x, &frame.y, &frame.z, &frame.radius, &frame.vx, &frame.vy, &frame.vz, &frame.wx,
-                    &frame.wy, &frame.wz, &frame.density}) {
+                    &frame.wy, &frame.wz, &frame.density, &frame.coordination}) {
       apply(*c);
     }
+    for (auto& c : frame.stress) apply(c);
     for (auto* c : {&frame.material, &frame.layer, &frame.bonded}) apply(*c);
     apply(frame.id);
   }

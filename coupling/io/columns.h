@@ -30,6 +30,15 @@ enum class Quantity {
   wz,
   density,
   material,
+  layer,
+  bonded,
+  coordination,
+  stress_xx,
+  stress_yy,
+  stress_zz,
+  stress_xy,
+  stress_yz,
+  stress_xz,
   time
 };
 
@@ -39,6 +48,9 @@ struct ColumnNames {
   std::string ours;  // the name that --columns uses
   std::vector<std::string> names;
 };
+
+/// `names` and those of the columns that only quantities of fields need, called the same in every kind.
+std::vector<ColumnNames> with_field_columns(std::vector<ColumnNames> names);
 
 /// One entry per column of the file.
 struct ColumnMap {
@@ -87,9 +99,13 @@ bool is_length(Quantity quantity);
 bool is_velocity(Quantity quantity);
 bool is_spin(Quantity quantity);
 bool is_size(Quantity quantity);
+bool is_stress(Quantity quantity);
 
-/// Where `frame` keeps a real quantity; nullptr for the others (id, material, time, none).
+/// Where `frame` keeps a real quantity; nullptr for the others (whole numbers, id, time, none).
 std::vector<double>* real_column(ParticleFrame& frame, Quantity quantity);
+
+/// Where `frame` keeps a whole number (material, layer, bonded); nullptr for the others.
+std::vector<std::int32_t>* whole_column(ParticleFrame& frame, Quantity quantity);
 
 /// The radius that a size (a radius, a diameter or a volume) stands for.
 double radius_of(Quantity quantity, double size);

@@ -12,42 +12,43 @@ namespace {
 
 // The x, y and z of a dump come plain, unwrapped (xu), scaled by the box (xs) or both (xsu).
 const std::vector<ColumnNames>& dump_names() {
-  static const std::vector<ColumnNames> names{{Quantity::id, "id", {"id"}},
-                                              {Quantity::x, "x", {"x", "xu", "xs", "xsu"}},
-                                              {Quantity::y, "y", {"y", "yu", "ys", "ysu"}},
-                                              {Quantity::z, "z", {"z", "zu", "zs", "zsu"}},
-                                              {Quantity::radius, "radius", {"radius"}},
-                                              {Quantity::diameter, "diameter", {"diameter"}},
-                                              {Quantity::vx, "vx", {"vx"}},
-                                              {Quantity::vy, "vy", {"vy"}},
-                                              {Quantity::vz, "vz", {"vz"}},
-                                              {Quantity::wx, "wx", {"omegax"}},
-                                              {Quantity::wy, "wy", {"omegay"}},
-                                              {Quantity::wz, "wz", {"omegaz"}},
-                                              {Quantity::density, "density", {"density"}},
-                                              {Quantity::material, "material", {"type"}}};
+  static const std::vector<ColumnNames> names =
+      with_field_columns({{Quantity::id, "id", {"id"}},
+                          {Quantity::x, "x", {"x", "xu", "xs", "xsu"}},
+                          {Quantity::y, "y", {"y", "yu", "ys", "ysu"}},
+                          {Quantity::z, "z", {"z", "zu", "zs", "zsu"}},
+                          {Quantity::radius, "radius", {"radius"}},
+                          {Quantity::diameter, "diameter", {"diameter"}},
+                          {Quantity::vx, "vx", {"vx"}},
+                          {Quantity::vy, "vy", {"vy"}},
+                          {Quantity::vz, "vz", {"vz"}},
+                          {Quantity::wx, "wx", {"omegax"}},
+                          {Quantity::wy, "wy", {"omegay"}},
+                          {Quantity::wz, "wz", {"omegaz"}},
+                          {Quantity::density, "density", {"density"}},
+                          {Quantity::material, "material", {"type"}}});
   return names;
 }
 
 /// What one unit of the file is in SI.
 struct Units {
-  double length = 1, time = 1, density = 1;
+  double length = 1, time = 1, density = 1, stress = 1;
 };
 
 // LAMMPS manual, "units": the styles that a granular dump can have.
 bool units_of_style(std::string_view style, Units& units) {
   if (style == "si")
-    units = {1, 1, 1};
+    units = {1, 1, 1, 1};
   else if (style == "cgs")
-    units = {1e-2, 1, 1e3};
+    units = {1e-2, 1, 1e3, 0.1};
   else if (style == "micro")
-    units = {1e-6, 1e-6, 1e3};
+    units = {1e-6, 1e-6, 1e3, 1e3};
   else if (style == "nano")
-    units = {1e-9, 1e-9, 1e6};
+    units = {1e-9, 1e-9, 1e6, 1e6};
   else if (style == "metal")
-    units = {1e-10, 1e-12, 1e3};
+    units = {1e-10, 1e-12, 1e3, 1e5};
   else if (style == "real")
-    units = {1e-10, 1e-15, 1e3};
+    units = {1e-10, 1e-15, 1e3, 101325};
   else
     return false;
   return true;
@@ -288,6 +289,7 @@ ColumnMap DumpReader::read_columns(std::string_view names) const {
         column.factor = units_.density;
         break;
       default:
+        if (is_stress(column.quantity)) column.factor = units_.stress;
         break;
     }
   }

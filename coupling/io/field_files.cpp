@@ -89,6 +89,13 @@ void add_sums(Json& json, const voxel::Field& field, bool mass_known) {
   json["negative_voxels"] = sums.negative_voxels;
 }
 
+// Means over the solid in the box; of what is per volume, over all that walls leave of it.
+void add_quantities(Json& json, const voxel::Field& field) {
+  for (const auto& q : field.quantities) {
+    if (q.name != "bonded_mask") json[column_name(q.full_name() + "_mean", q.units)] = or_null(q.mean);
+  }
+}
+
 void add_layers(Json& json, const FieldFilesRequest& request,
                 const std::optional<voxel::LayerColumns>& columns) {
   if (!columns) {
@@ -138,6 +145,7 @@ Json summary_of(const voxel::Field& field, std::size_t spheres, const FieldFiles
   Json json;
   add_origin(json, field, spheres, request);
   add_sums(json, field, field.mass_density != nullptr);
+  add_quantities(json, field);
   add_layers(json, request, result.layers);
   json["lines"] = Json::array();
   for (std::size_t i = 0; i < request.lines.size(); ++i) {

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <iterator>
+#include <vector>
 
 namespace interstice::io {
 namespace {
@@ -25,23 +26,46 @@ void add_stored(Text& out, double value, char after = ',') {
   }
 }
 
+std::string heading(const voxel::Samples& samples) {
+  std::string head = "x_m,y_m,z_m,void_fraction,solid_fraction,mass_density_kg_m3";
+  if (!samples.void_fraction_averaged.empty()) head += ",void_fraction_averaged";
+  for (const auto& q : samples.quantities) {
+    head += fmt::format(",{}", column_name(q.name, q.units));
+    if (!q.averaged.empty()) head += fmt::format(",{}", column_name(q.name + "_averaged", q.units));
+  }
+  head += '\n';
+  return head;
+}
+
 }  // namespace
+
+std::string column_name(const std::string& quantity, const std::string& units) {
+  if (units == "1") return quantity;
+  std::string name = quantity + "_";
+  for (const char c : units) {
+    if (c != '^') name += c == '/' ? '_' : c;
+  }
+  return name;
+}
 
 std::string csv_of(const voxel::Samples& samples) {
   const bool dense = !samples.mass_density.empty();
-  const bool averaged = !samples.void_fraction_averaged.empty();
-  std::string head = "x_m,y_m,z_m,void_fraction,solid_fraction,mass_density_kg_m3";
-  head += averaged ? ",void_fraction_averaged\n" : "\n";
+  std::vector<const std::vector<double>*> others;
+  if (!samples.void_fraction_averaged.empty()) others.push_back(&samples.void_fraction_averaged);
+  for (const auto& q : samples.quantities) {
+    others.push_back(&q.values);
+    if (!q.averaged.empty()) others.push_back(&q.averaged);
+  }
   Text out;
-  out.append(head);
+  out.append(heading(samples));
   for (std::size_t i = 0; i < samples.center.size(); ++i) {
     add(out, samples.center[i].x);
     add(out, samples.center[i].y);
     add(out, samples.center[i].z);
     add_stored(out, samples.void_fraction[i]);
     add_stored(out, samples.solid_fraction[i]);
-    add_stored(out, dense ? samples.mass_density[i] : std::nan(""), averaged ? ',' : '\n');
-    if (averaged) add_stored(out, samples.void_fraction_averaged[i], '\n');
+    add_stored(out, dense ? samples.mass_density[i] : std::nan(""), others.empty() ? '\n' : ',');
+    for (const auto* column : others) add_stored(out, (*column)[i], column == others.back() ? '\n' : ',');
   }
   return fmt::to_string(out);
 }

@@ -9,8 +9,11 @@
 
 namespace interstice::io {
 
-/// x_m,y_m,z_m,void_fraction,solid_fraction,mass_density_kg_m3[,void_fraction_averaged]; a row per voxel. A
-/// density that is not known is nan.
+/// "velocity_x_m_s", "temperature_m2_s2", "coordination": a quantity's name with its unit.
+std::string column_name(const std::string& quantity, const std::string& units);
+
+/// x_m,y_m,z_m,void_fraction,solid_fraction,mass_density_kg_m3[,void_fraction_averaged], then what else the
+/// field holds, each with its average; a row per voxel. What is not known, or has no value there, is nan.
 std::string csv_of(const voxel::Samples& samples);
 
 /// x_m,y_m,solid_fraction,mass_density_kg_m3,solid_height_m,surface_height_m,solid_fraction_below_surface; a

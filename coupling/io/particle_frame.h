@@ -30,7 +30,9 @@ struct ParticleFrame {
   std::vector<double> wx, wy, wz;  // [rad/s]
   std::vector<double> density;     // [kg/m^3]
   std::vector<std::int32_t> material, layer, bonded;
-  std::optional<Box> bounds;  // the source's own simulation box
+  std::vector<double> coordination;           // contacts of each grain
+  std::array<std::vector<double>, 6> stress;  // xx yy zz xy yz xz, mean over the grain, tension positive [Pa]
+  std::optional<Box> bounds;                  // the source's own simulation box
   std::array<bool, 3> periodic{false, false, false};
   std::vector<WallPose> walls;
 

@@ -26,21 +26,21 @@ void append_as(const char* bytes, std::size_t count, bool swap, std::vector<doub
 
 // Names in the files of LIGGGHTS (dump custom/vtk, pizza's dump2vtk and lpp), MercuryDPM, YADE and others.
 const std::vector<ColumnNames>& array_names() {
-  static const std::vector<ColumnNames> names{
-      {Quantity::x, "x", {"Points:0"}},
-      {Quantity::y, "y", {"Points:1"}},
-      {Quantity::z, "z", {"Points:2"}},
-      {Quantity::id, "id", {"id", "ids", "GlobalIds", "GlobalPointIds", "atom_id"}},
-      {Quantity::radius, "radius", {"radius", "radii", "r"}},
-      {Quantity::diameter, "diameter", {"diameter", "d"}},
-      {Quantity::vx, "vx", {"v:0", "velocity:0", "vel:0", "linVelVec:0", "vx"}},
-      {Quantity::vy, "vy", {"v:1", "velocity:1", "vel:1", "linVelVec:1", "vy"}},
-      {Quantity::vz, "vz", {"v:2", "velocity:2", "vel:2", "linVelVec:2", "vz"}},
-      {Quantity::wx, "wx", {"omega:0", "angularVelocity:0", "angVelVec:0", "omegax", "wx"}},
-      {Quantity::wy, "wy", {"omega:1", "angularVelocity:1", "angVelVec:1", "omegay", "wy"}},
-      {Quantity::wz, "wz", {"omega:2", "angularVelocity:2", "angVelVec:2", "omegaz", "wz"}},
-      {Quantity::density, "density", {"density", "rho"}},
-      {Quantity::material, "material", {"material", "type", "atom_type"}}};
+  static const std::vector<ColumnNames> names = with_field_columns(
+      {{Quantity::x, "x", {"Points:0"}},
+       {Quantity::y, "y", {"Points:1"}},
+       {Quantity::z, "z", {"Points:2"}},
+       {Quantity::id, "id", {"id", "ids", "GlobalIds", "GlobalPointIds", "atom_id"}},
+       {Quantity::radius, "radius", {"radius", "radii", "r"}},
+       {Quantity::diameter, "diameter", {"diameter", "d"}},
+       {Quantity::vx, "vx", {"v:0", "velocity:0", "vel:0", "linVelVec:0", "vx"}},
+       {Quantity::vy, "vy", {"v:1", "velocity:1", "vel:1", "linVelVec:1", "vy"}},
+       {Quantity::vz, "vz", {"v:2", "velocity:2", "vel:2", "linVelVec:2", "vz"}},
+       {Quantity::wx, "wx", {"omega:0", "angularVelocity:0", "angVelVec:0", "omegax", "wx"}},
+       {Quantity::wy, "wy", {"omega:1", "angularVelocity:1", "angVelVec:1", "omegay", "wy"}},
+       {Quantity::wz, "wz", {"omega:2", "angularVelocity:2", "angVelVec:2", "omegaz", "wz"}},
+       {Quantity::density, "density", {"density", "rho"}},
+       {Quantity::material, "material", {"material", "type", "atom_type"}}});
   return names;
 }
 
@@ -68,7 +68,7 @@ void append_whole(const Strand& strand, const ColumnMap::Column& column, std::si
     if (id) {
       frame.id.push_back(static_cast<std::int64_t>(value));
     } else {
-      frame.material.push_back(static_cast<std::int32_t>(value));
+      whole_column(frame, column.quantity)->push_back(static_cast<std::int32_t>(value));
     }
   }
 }

@@ -11,25 +11,25 @@ namespace interstice::io {
 namespace {
 
 const std::vector<ColumnNames>& table_names() {
-  static const std::vector<ColumnNames> names{
-      {Quantity::id, "id", {"id"}},
-      {Quantity::x, "x", {"x", "Points:0"}},
-      {Quantity::y, "y", {"y", "Points:1"}},
-      {Quantity::z, "z", {"z", "Points:2"}},
-      {Quantity::radius, "radius", {"radius", "r"}},
-      {Quantity::diameter, "diameter", {"diameter", "d"}},
-      {Quantity::vx, "vx", {"vx"}},
-      {Quantity::vy, "vy", {"vy"}},
-      {Quantity::vz, "vz", {"vz"}},
-      {Quantity::wx, "wx", {"wx"}},
-      {Quantity::wy, "wy", {"wy"}},
-      {Quantity::wz, "wz", {"wz"}},
-      {Quantity::density, "density", {"density"}},
-      {Quantity::material, "material", {"material", "matId", "type"}}};
+  static const std::vector<ColumnNames> names =
+      with_field_columns({{Quantity::id, "id", {"id"}},
+                          {Quantity::x, "x", {"x", "Points:0"}},
+                          {Quantity::y, "y", {"y", "Points:1"}},
+                          {Quantity::z, "z", {"z", "Points:2"}},
+                          {Quantity::radius, "radius", {"radius", "r"}},
+                          {Quantity::diameter, "diameter", {"diameter", "d"}},
+                          {Quantity::vx, "vx", {"vx"}},
+                          {Quantity::vy, "vy", {"vy"}},
+                          {Quantity::vz, "vz", {"vz"}},
+                          {Quantity::wx, "wx", {"wx"}},
+                          {Quantity::wy, "wy", {"wy"}},
+                          {Quantity::wz, "wz", {"wz"}},
+                          {Quantity::density, "density", {"density"}},
+                          {Quantity::material, "material", {"material", "matId", "type"}}});
   return names;
 }
 
-enum class Dimension { none, length, velocity, spin, density };
+enum class Dimension { none, length, velocity, spin, density, stress };
 
 Dimension dimension_of(Quantity quantity) {
   switch (quantity) {
@@ -50,7 +50,7 @@ Dimension dimension_of(Quantity quantity) {
     case Quantity::density:
       return Dimension::density;
     default:
-      return Dimension::none;
+      return is_stress(quantity) ? Dimension::stress : Dimension::none;
   }
 }
 
@@ -76,6 +76,11 @@ double unit_factor(Dimension dimension, std::string_view unit) {
   if (dimension == Dimension::density) {
     if (plain == "kg/m^3" || plain == "kg/m3") return 1;
     if (plain == "g/cm^3" || plain == "g/cm3") return 1e3;
+  }
+  if (dimension == Dimension::stress) {
+    if (plain == "Pa") return 1;
+    if (plain == "kPa") return 1e3;
+    if (plain == "MPa") return 1e6;
   }
   return 0;
 }
@@ -180,10 +185,11 @@ void TableReader::set_columns(const std::vector<std::string>& headings) {
     }
     column.factor = unit_factor(dimension, units[c]);
     if (column.factor == 0) {
-      wrong(fmt::format(
-          "column `{}`: unit `{}` is not known here; m, cm, mm, um, nm (and those per s), rad/s, kg/m^3, "
-          "g/cm^3 are; correct the header",
-          list_of({names[c]}), list_of({units[c]})));
+      wrong(
+          fmt::format("column `{}`: unit `{}` is not known here; m, cm, mm, um, nm (and those per s), rad/s, "
+                      "kg/m^3, Pa, kPa, MPa, "
+                      "g/cm^3 are; correct the header",
+                      list_of({names[c]}), list_of({units[c]})));
     }
   }
 }

@@ -5,6 +5,7 @@
 #include <openvdb/tools/Dense.h>
 #include <zlib.h>
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 
@@ -19,6 +20,8 @@ constexpr std::int64_t block_cells = std::int64_t{1} << 18;  // about 1 MB a com
 
 /// One array of the file as VTK wants it appended: a header of sizes, then the compressed blocks.
 struct Appended {
+  std::string name;
+  std::size_t components = 1;
   std::vector<std::uint64_t>
       header;  // blocks, bytes a block, bytes of the last where it is shorter, compressed bytes
   std::vector<std::string> blocks;
@@ -49,21 +52,33 @@ std::string deflated(std::vector<float>& values) {
   return out;
 }
 
-// A block is a number of whole z layers, so that each is copied out of the sparse grid and compressed by
-// itself.
-Appended compressed(const openvdb::FloatGrid& grid, const std::array<std::int64_t, 3>& n) {
+using Components = std::vector<const openvdb::FloatGrid*>;
+
+// The cells of some z layers, all components of a cell side by side.
+std::vector<float> dense_layers(const Components& grids, const openvdb::CoordBBox& box) {
   using Dense = openvdb::tools::Dense<float, openvdb::tools::LayoutXYZ>;  // x fastest, as VTK has it
-  const std::int64_t layer = n[0] * n[1];
+  const std::size_t cells = box.volume(), components = grids.size();
+  std::vector<float> all(cells * components), one(components > 1 ? cells : 0);
+  for (std::size_t c = 0; c < components; ++c) {
+    Dense dense(box, components > 1 ? one.data() : all.data());
+    openvdb::tools::copyToDense(*grids[c], dense, /*serial=*/true);
+    for (std::size_t i = 0; i < one.size(); ++i) all[i * components + c] = one[i];
+  }
+  return all;
+}
+
+// A block is a number of whole z layers, so that each is copied out of the sparse grids and compressed by
+// itself.
+Appended compressed(const Components& grids, const std::array<std::int64_t, 3>& n) {
+  const std::int64_t layer = n[0] * n[1] * static_cast<std::int64_t>(grids.size());
   const Blocks layers{static_cast<std::size_t>(n[2]),
                       static_cast<std::size_t>(std::max<std::int64_t>(1, block_cells / layer))};
   Appended array;
   array.blocks.resize(layers.count());
   for_each_block(layers, [&](std::size_t b, std::size_t begin, std::size_t end) {
-    std::vector<float> values(static_cast<std::size_t>(layer) * (end - begin));
     const openvdb::CoordBBox box(0, 0, static_cast<int>(begin), static_cast<int>(n[0] - 1),
                                  static_cast<int>(n[1] - 1), static_cast<int>(end) - 1);
-    Dense dense(box, values.data());
-    openvdb::tools::copyToDense(grid, dense, /*serial=*/true);
+    std::vector<float> values = dense_layers(grids, box);
     array.blocks[b] = deflated(values);
   });
   const auto layer_bytes = static_cast<std::uint64_t>(layer) * sizeof(float);
@@ -75,8 +90,7 @@ Appended compressed(const openvdb::FloatGrid& grid, const std::array<std::int64_
   return array;
 }
 
-std::string opening(const voxel::Field& field, double time,
-                    const std::vector<std::pair<std::string, Appended>>& arrays) {
+std::string opening(const voxel::Field& field, double time, const std::vector<Appended>& arrays) {
   const auto& n = field.lattice.n;
   const auto& lo = field.lattice.lo;
   const auto& h = field.lattice.h;
@@ -94,10 +108,12 @@ std::string opening(const voxel::Field& field, double time,
   }
   xml += fmt::format("    <Piece Extent=\"{}\">\n      <CellData Scalars=\"void_fraction\">\n", extent);
   std::uint64_t offset = 0;
-  for (const auto& [name, array] : arrays) {
+  for (const auto& array : arrays) {
+    const std::string components =
+        array.components > 1 ? fmt::format("NumberOfComponents=\"{}\" ", array.components) : "";
     xml +=
-        fmt::format("        <DataArray type=\"Float32\" Name=\"{}\" format=\"appended\" offset=\"{}\"/>\n",
-                    name, offset);
+        fmt::format("        <DataArray type=\"Float32\" Name=\"{}\" {}format=\"appended\" offset=\"{}\"/>\n",
+                    array.name, components, offset);
     offset += array.bytes();
   }
   return xml + "      </CellData>\n    </Piece>\n  </ImageData>\n  <AppendedData encoding=\"raw\">\n_";
@@ -106,19 +122,36 @@ std::string opening(const voxel::Field& field, double time,
 }  // namespace
 
 void write_vti(const std::filesystem::path& path, const voxel::Field& field, double time) {
-  std::vector<std::pair<std::string, Appended>> arrays;
+  std::vector<Appended> arrays;
+  const auto add_all = [&](const Components& grids, const std::string& name) {
+    arrays.push_back(compressed(grids, field.lattice.n));
+    arrays.back().name = name;
+    arrays.back().components = grids.size();
+  };
   const auto add = [&](const openvdb::FloatGrid::Ptr& grid, const char* name) {
-    if (grid) arrays.emplace_back(name, compressed(*grid, field.lattice.n));
+    if (grid) add_all({grid.get()}, name);
   };
   add(field.void_fraction, "void_fraction");
   add(field.solid_fraction, "solid_fraction");
   add(field.available_fraction, "available_fraction");
   add(field.void_fraction_averaged, "void_fraction_averaged");
   add(field.solid_fraction_averaged, "solid_fraction_averaged");
+  for (auto first = field.quantities.begin(); first != field.quantities.end();) {
+    const auto last =
+        std::find_if(first, field.quantities.end(), [&](const auto& q) { return q.name != first->name; });
+    Components grids, averaged;
+    for (auto q = first; q != last; ++q) {
+      grids.push_back(q->grid.get());
+      if (q->averaged) averaged.push_back(q->averaged.get());
+    }
+    add_all(grids, first->name);
+    if (!averaged.empty()) add_all(averaged, first->name + "_averaged");
+    first = last;
+  }
   write_atomically(path, [&](const std::filesystem::path& aside) {
     std::ofstream out(aside, std::ios::binary);
     out << opening(field, time, arrays);
-    for (const auto& [name, array] : arrays) {
+    for (const auto& array : arrays) {
       out.write(reinterpret_cast<const char*>(array.header.data()),
                 static_cast<std::streamsize>(array.header.size() * sizeof(std::uint64_t)));
       for (const auto& block : array.blocks)

@@ -9,9 +9,10 @@
 
 namespace interstice::io {
 
-/// Float32 cell data on the lattice: Origin its corner, Spacing its edge, one array per fraction that the
-/// field has (mass density follows from the solid fraction; it is in the .vdb). `time` [s] is left out when
-/// not finite.
+/// Float32 cell data on the lattice: Origin its corner, Spacing its edge, one array per fraction and
+/// quantity that the field has: velocity with 3 components, stress with 6 (xx yy zz xy yz xz, VTK's order); 0
+/// where there is no solid (mass density follows from the solid fraction; it is in the .vdb). `time` [s] is
+/// left out when not finite.
 void write_vti(const std::filesystem::path& path, const voxel::Field& field, double time);
 
 /// One file of a series, relative to the .pvd.

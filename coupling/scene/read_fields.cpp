@@ -11,6 +11,7 @@ namespace interstice::scene {
 namespace {
 
 constexpr std::int64_t kMostColumns = 100000;
+constexpr double kMostKernelVoxels = 1000;  // as voxel::check_method has it
 
 std::string example_inside(const Box& box, int axis) {
   return format_length(0.5 * (box.lo[axis] + box.hi[axis]));
@@ -102,6 +103,29 @@ void check_voxels(const TableReader& table, const Field& field) {
                           "make the voxels larger or the box smaller if that is too many");
 }
 
+/// The words of field_recipe.h, each problem at its own place.
+FieldRecipe read_recipe(const TableReader& table) {
+  FieldRecipe recipe;
+  QuantityProblem problem;
+  const auto error = [&](const char* key) {
+    table.error(key, problem.what, problem.allowed, problem.remedy);
+  };
+  if (const std::string text = table.text("method"); !text.empty() && !try_read_method(text, recipe, problem))
+    error("method");
+  recipe.united = table.choice("overlap") == "union";
+  if (!goes_together(recipe, problem)) error("overlap");
+  const auto words = table.texts("quantities");
+  for (std::size_t i = 0; i < words.size(); ++i)
+    if (!try_read_field_quantity(words[i], recipe, problem))
+      table.problems().error(table.raw("quantities")->items[i].place,
+                             fmt::format("{}.{}", table.path("quantities"), i), problem.what, problem.allowed,
+                             problem.remedy);
+  if (const std::string text = table.text("classes");
+      !text.empty() && !try_read_classes(text, recipe, problem))
+    error("classes");
+  return recipe;
+}
+
 Field read_field(const TableReader& table) {
   Field field;
   field.name = table.text("name");
@@ -116,6 +140,10 @@ Field read_field(const TableReader& table) {
                 "average over several voxels");
   field.average_window = window_named(table.choice("average_window")).value_or(WindowShape::box);
   field.scales = table.boolean("scales");
+  field.recipe = read_recipe(table);
+  if (field.recipe.kernel_length > kMostKernelVoxels * field.voxel)
+    table.error("method", "the kernel's length is more than 1000 voxels", "at most 1000 voxels are allowed",
+                "make the kernel shorter or the voxels larger");
   field.periodic_from_domain = table.boolean("periodic_from_domain");
   check_voxels(table, field);
   read_selectors(table, field);

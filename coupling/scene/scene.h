@@ -9,6 +9,7 @@
 
 #include "base/averaging_window.h"
 #include "base/shapes.h"
+#include "coupling/scene/field_recipe.h"
 
 namespace interstice::scene {
 
@@ -201,6 +202,7 @@ struct Field {
   double average = 0;           // averaging length [m]; 0: none
   WindowShape average_window = WindowShape::box;
   bool scales = false;  // also void fraction against averaging length
+  FieldRecipe recipe;
   std::vector<Slice> slices;
   std::vector<Line> lines;
   FieldLayers layers;  // default: the height of the box

@@ -244,6 +244,12 @@ void write_field(Writer& out, const Field& field) {
   out.quantity("average", field.average, Dimension::length);
   out.text("average_window", name_of(field.average_window));
   out.flag("scales", field.scales);
+  out.text("method", method_text(field.recipe));
+  out.text("overlap", field.recipe.united ? "union" : "sum");
+  std::vector<std::string> quantities;
+  for (const std::string& word : quantity_words(field.recipe)) quantities.push_back(quoted(word));
+  out.raw("quantities", fmt::format("[{}]", fmt::join(quantities, ", ")));
+  out.text("classes", classes_text(field.recipe));
   std::vector<std::string> slices, lines;
   for (const Slice& slice : field.slices)
     slices.push_back(

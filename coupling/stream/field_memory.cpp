@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "coupling/io/field_grains.h"
 
 namespace interstice::stream {
 namespace {
@@ -15,6 +16,9 @@ namespace {
 constexpr double kBytesPerCell = 12, kBytesPerSphere = 300, kBytesOnce = 8e6;
 // Dense averages: solid and available in double, and two more grids.
 constexpr double kBytesPerAveragedCell = 36;
+// A quantity's grid of floats with its mask, and where averages are taken its parts and their average.
+constexpr double kBytesPerQuantityCell = 5, kBytesPerAveragedQuantityCell = 20,
+                 kBytesPerQuantityOfASphere = 8;
 constexpr double kBytesPerCopiedGrain = 150;
 
 io::FieldFilesRequest request_of(const scene::Field& field) {
@@ -22,6 +26,7 @@ io::FieldFilesRequest request_of(const scene::Field& field) {
   request.computed.lattice = voxel::cubic_lattice(field.box, field.voxel);
   request.computed.average_length = field.average;
   request.computed.average_window = field.average_window;
+  io::apply(field.recipe, {}, request.computed);
   return request;
 }
 
@@ -63,7 +68,11 @@ double field_memory(const io::FieldFilesRequest& request, double cells, double s
   double bytes = kBytesOnce + kBytesPerCell * cells + kBytesPerSphere * spheres;
   if (averaged) bytes += kBytesPerAveragedCell * all;
   if (averaged && request.computed.average_window == WindowShape::sphere) bytes += 8 * all;  // sums aside
-  if (request.vti && all <= static_cast<double>(request.vti_most_cells)) bytes += (averaged ? 24 : 12) * all;
+  const auto quantities = static_cast<double>(request.computed.quantities.grids());
+  bytes += quantities * (kBytesPerQuantityCell * cells + kBytesPerQuantityOfASphere * spheres);
+  if (averaged) bytes += quantities * kBytesPerAveragedQuantityCell * all;
+  if (request.vti && all <= static_cast<double>(request.vti_most_cells))
+    bytes += (averaged ? 24 : 12) * (1 + quantities / 3) * all;
   return bytes;
 }
 

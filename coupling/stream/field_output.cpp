@@ -8,6 +8,7 @@
 #include "base/version.h"
 #include "coupling/figures/figures.h"
 #include "coupling/io/field_files.h"
+#include "coupling/io/field_grains.h"
 #include "coupling/stream/run_figures.h"
 
 namespace interstice::stream {
@@ -19,8 +20,10 @@ constexpr const char* kTableHeader =
     "solid_height_m,surface_height_m,solid_fraction_below_surface";
 constexpr int kTimeColumn = 1;
 
-voxel::SpheresView view_of(const io::ParticleFrame& f) {
-  return {f.size(), f.x.data(), f.y.data(), f.z.data(), f.radius.data(), f.density.data()};
+std::vector<std::string> material_names(const scene::Scene& scene) {
+  std::vector<std::string> names;
+  for (const scene::Material& material : scene.materials) names.push_back(material.name);
+  return names;
 }
 
 std::string table_row(const Snapshot& s, std::int64_t number, const nlohmann::ordered_json& summary,
@@ -53,7 +56,9 @@ void FieldOutput::write(const Snapshot& snapshot) {
 void FieldOutput::write_field(const Snapshot& snapshot, const Snapshot::Due& due) {
   const scene::Field& f = scene_.fields[due.field];
   const auto start = std::chrono::steady_clock::now();
-  const voxel::SpheresView spheres = view_of(snapshot.frame);
+  const io::GrainClasses classes = io::classify(snapshot.frame, f.recipe.classes, material_names(scene_));
+  voxel::SpheresView spheres = io::view_of(snapshot.frame);
+  if (!classes.of.empty()) spheres.group = classes.of.data();
   voxel::Solids solids;
   for (const io::WallPose& w : snapshot.frame.walls) solids.shapes.push_back(w.shape);
 
@@ -62,6 +67,7 @@ void FieldOutput::write_field(const Snapshot& snapshot, const Snapshot::Due& due
   if (f.periodic_from_domain) request.computed.periodic = snapshot.frame.periodic;
   request.computed.average_length = f.average;
   request.computed.average_window = f.average_window;
+  io::apply(f.recipe, classes, request.computed);
   const voxel::Field field = voxel::compute_field(spheres, solids, request.computed);
   for (const io::WallPose& w : snapshot.frame.walls) request.walls.push_back(w.name);
   request.box = f.box;

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 
@@ -17,6 +18,7 @@
 #include "coupling/stream/schedule.h"
 #include "coupling/stream/series.h"
 #include "coupling/stream/step_choice.h"
+#include "dem/grain_stress.h"
 #include "dem/statistics.h"
 
 namespace interstice::stream {
@@ -52,6 +54,7 @@ class Run {
   void record(bool phase_end);
   void append_frame(const io::ParticleFrame& frame);
   void fill(io::ParticleFrame& frame) const;
+  void fill_contacts(const std::vector<Snapshot::Due>& due, io::ParticleFrame& frame) const;
   void guard();
   void checkpoint();
   std::int64_t next_event() const;
@@ -226,6 +229,18 @@ void Run::fill(io::ParticleFrame& frame) const {
   }
 }
 
+/// What only fields of contacts need is worked out for them alone.
+void Run::fill_contacts(const std::vector<Snapshot::Due>& due, io::ParticleFrame& frame) const {
+  const bool wanted = std::any_of(due.begin(), due.end(), [&](const Snapshot::Due& d) {
+    const scene::FieldQuantities& q = scene_.fields[d.field].recipe.quantities;
+    return q.coordination || q.stress;
+  });
+  if (!wanted) return;
+  dem::GrainStresses contacts = dem::grain_stresses(sim_);
+  frame.coordination = std::move(contacts.contacts);
+  frame.stress = std::move(contacts.stress);
+}
+
 void Run::record(bool phase_end) {
   const std::int64_t step = sim_.step();
   if (series_ && series_every_.due(step)) series_->sample(sim_);
@@ -237,6 +252,7 @@ void Run::record(bool phase_end) {
   if (frame_due || !due.empty() || phase_end) {
     Snapshot& snapshot = stream_->acquire();
     fill(snapshot.frame);
+    fill_contacts(due, snapshot.frame);
     snapshot.phase = phase().name;
     snapshot.phase_end = phase_end;
     snapshot.due = std::move(due);

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "coupling/figures/figures.h"
+#include "coupling/figures/quantity_slices.h"
 #include "coupling/studies/table.h"
 
 namespace interstice::stream {
@@ -111,6 +112,25 @@ std::string averaged_name(const scene::Field& field) {
                          : fmt::format(" ({})", name_of(field.average_window)));
 }
 
+void draw_quantities(const scene::Field& field, const std::filesystem::path& folder,
+                     const io::FieldFilesResult& files, const io::ParticleFrame& frame,
+                     const std::string& phase) {
+  figures::QuantitySlices figure;
+  figure.voxel_name = fmt::format("per voxel of {}", length(field.voxel));
+  figure.averaged_name = averaged_name(field);
+  figure.note = fmt::format("voxel {}, method {}", length(field.voxel), scene::method_text(field.recipe));
+  if (field.average > 0) figure.note += fmt::format(", {}", averaged_name(field));
+  figure.walls = frame.walls;
+  for (std::size_t s = 0; s < files.slices.size(); ++s) {
+    const scene::Slice& slice = field.slices[s];
+    figure.slices.push_back({fmt::format("{}-{}-{}", field.name, phase, io::name_of(slice)),
+                             fmt::format("{} = {:.4g} mm, end of phase '{}', t = {:.4g} ms",
+                                         "xyz"[slice.axis], slice.at * kMilli, phase, frame.time * kMilli),
+                             &files.slices[s]});
+  }
+  figures::write_quantity_slices(folder, figure);
+}
+
 }  // namespace
 
 void draw_grains(const scene::Scene& scene, const std::filesystem::path& folder,
@@ -140,8 +160,9 @@ void draw_field(const scene::Field& field, const std::filesystem::path& folder,
     figures::SliceFigure figure;
     figure.title =
         fmt::format("Void fraction at the end of phase '{}', t = {:.4g} ms", phase, frame.time * kMilli);
-    figure.note = fmt::format("voxel {}, {}, exact sphere volumes", length(field.voxel),
-                              averaged ? averaged_name(field) : "per voxel, not averaged");
+    figure.note = fmt::format("voxel {}, {}, method {}", length(field.voxel),
+                              averaged ? averaged_name(field) : "per voxel, not averaged",
+                              scene::method_text(field.recipe));
     for (std::size_t s = 0; s < files.slices.size(); ++s) {
       figures::SlicePanel panel;
       panel.title =
@@ -163,6 +184,7 @@ void draw_field(const scene::Field& field, const std::filesystem::path& folder,
                      "least half of their volume outside walls",
                      length(field.voxel)),
          *files.scales});
+  draw_quantities(field, folder, files, frame, phase);
   if (files.lines.empty()) return;
   std::vector<CurveFigure> panels;
   for (std::size_t l = 0; l < files.lines.size(); ++l) {

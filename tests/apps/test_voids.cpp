@@ -351,7 +351,7 @@ TEST_F(Voids, WrongUseIsRefusedBeforeAnythingIsWritten) {
   expect_refused(dump + "--method kernel:1m", "1000 voxels");
   expect_refused(dump + "--method cloud", "kernel:LENGTH");
   expect_refused(dump + "--overlap most", "union");
-  expect_refused(dump + "--overlap union --method centre", "--method exact");
+  expect_refused(dump + "--overlap union --method centre", "union needs the method exact");
   expect_refused(dump + "--walls tool.stl", "says no unit of length");
   expect_refused(dump + "--walls tool.stl@furlong", "furlong");
   expect_refused(dump + "--walls missing.stl@mm", "missing.stl: cannot be read");

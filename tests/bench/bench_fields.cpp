@@ -2,6 +2,8 @@
 //   bench_fields throughput [SPHERES]   exact in double and in single beside the straightforward way
 //   bench_fields scaling [MOST]         time and memory from 1,000 to MOST (10,000,000) spheres
 //   bench_fields ratios                 one sphere of R/h from 0.001 to 1,000
+//   bench_fields quantities [SPHERES]   what each quantity beside the fractions costs, against the plain
+//   field
 // Diameters are normal by number, mean 39.4 um, sd 10.5 um, cut to 5 to 65 um; voxels are 17.3 um. What is
 // compared is run in turns, so that a machine's changing speed touches all alike; a row is the median of the
 // rounds, and the fastest.
@@ -109,11 +111,11 @@ Seconds timed(const std::function<void()>& work) {
 }
 
 struct Spread {
-  double median, least;
+  double median, least, most;
 };
 Spread spread_of(std::vector<double> values) {
   std::sort(values.begin(), values.end());
-  return {values[values.size() / 2], values.front()};
+  return {values[values.size() / 2], values.front(), values.back()};
 }
 
 template <class Work>
@@ -235,6 +237,71 @@ void ratios() {
   }
 }
 
+void quantities(std::size_t count) {
+  const Bed bed = make_bed(count);
+  std::vector<double> numbers(count), density(count, 8200.0);
+  std::vector<std::int32_t> classes(count), bonded(count);
+  Random random(5, 0);
+  for (std::size_t s = 0; s < count; ++s) {
+    numbers[s] = random.uniform(-1, 1);
+    classes[s] = random.uniform() < 0.5;
+    bonded[s] = random.uniform() < 0.5;
+  }
+  voxel::SpheresView spheres = bed.view();
+  spheres.velocity.fill(numbers.data()), spheres.stress.fill(numbers.data());
+  spheres.coordination = numbers.data();
+  spheres.bonded = bonded.data(), spheres.group = classes.data();
+  voxel::SpheresView heavy = spheres;
+  heavy.density = density.data();
+  struct Case {
+    const char* name;
+    voxel::QuantityRequest request;
+    const voxel::SpheresView* spheres;
+    std::vector<double> ratio{};  // to the plain field beside it
+  };
+  const auto only = [](bool voxel::QuantityRequest::*flag) {
+    voxel::QuantityRequest request;
+    request.*flag = true;
+    return request;
+  };
+  voxel::QuantityRequest two_classes;
+  two_classes.groups = {"one", "two"};
+  std::vector<Case> cases{
+      {"mass density", {}, &heavy},
+      {"velocity", only(&voxel::QuantityRequest::velocity), &spheres},
+      {"temperature (with velocity)", only(&voxel::QuantityRequest::temperature), &spheres},
+      {"mean diameter", only(&voxel::QuantityRequest::diameter), &spheres},
+      {"coordination", only(&voxel::QuantityRequest::coordination), &spheres},
+      {"stress and pressure", only(&voxel::QuantityRequest::stress), &spheres},
+      {"bonded fraction and mask", only(&voxel::QuantityRequest::bonded), &spheres},
+      {"two classes", two_classes, &spheres},
+      {"all of these", {true, true, true, true, true, true, {"one", "two"}}, &heavy}};
+  std::vector<double> plain;
+  const auto seconds_of = [&](const voxel::SpheresView& view, const voxel::QuantityRequest& asked) {
+    FieldRequest request = request_for(bed);
+    request.quantities = asked;
+    return timed([&] { voxel::compute_field(view, {}, request); }).processor;
+  };
+  on_threads(1, [&] {
+    for (int round = 0; round < 15; ++round)
+      for (Case& c : cases) {
+        plain.push_back(seconds_of(spheres, {}));
+        c.ratio.push_back(seconds_of(*c.spheres, c.request) / plain.back());
+      }
+  });
+  const Spread frame = spread_of(plain);
+  fmt::print(
+      "{} spheres, voxels of {:g} um, one thread; the plain field takes {:.1f} ms ({:.1f}, {:.1f})\n\n",
+      count, 1e6 * kVoxel, 1e3 * frame.median, 1e3 * frame.least, 1e3 * frame.most);
+  fmt::print(
+      "| beside the fractions | grids | time, plain field = 1: median (least, most) |\n|---|---|---|\n");
+  for (const Case& c : cases) {
+    const Spread ratio = spread_of(c.ratio);
+    fmt::print("| {} | {} | {:.2f} ({:.2f}, {:.2f}) |\n", c.name, c.request.grids() + (c.spheres == &heavy),
+               ratio.median, ratio.least, ratio.most);
+  }
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -247,8 +314,11 @@ int main(int argc, char** argv) {
     scaling(count ? count : 10'000'000);
   else if (what == "ratios")
     ratios();
+  else if (what == "quantities")
+    quantities(count ? count : 35'000);
   else {
-    fmt::print(stderr, "usage: bench_fields throughput [SPHERES] | scaling [MOST] | ratios\n");
+    fmt::print(stderr,
+               "usage: bench_fields throughput [SPHERES] | scaling [MOST] | ratios | quantities [SPHERES]\n");
     return 2;
   }
 }

@@ -2,7 +2,8 @@
 #include <openvdb/io/File.h>
 #include <openvdb/openvdb.h>
 
-#include <openvdb/openvdb.h>
+#include <algorithm>
+#include <array>
 #include <sstream>
 
 #include "coupling/io/field_files.h"
@@ -93,6 +94,61 @@ TEST_F(FieldFiles, VtiHoldsTheSameValuesXFastest) {
       }
     }
   }
+}
+
+// Velocity as vectors, stress as six components in VTK's order, both with their averages.
+TEST_F(FieldFiles, HoldQuantitiesByTheirComponents) {
+  const std::vector<double> vx{1, 2, 3}, vy{-4, 5, -6}, vz{0.5, 0.25, 8};
+  std::array<std::vector<double>, 6> stress;
+  for (std::size_t c = 0; c < 6; ++c) {
+    const double s = 100.0 * static_cast<double>(c) - 200;
+    stress[c] = {s, 2 * s, -s};
+    view.stress[c] = stress[c].data();
+  }
+  view.velocity = {vx.data(), vy.data(), vz.data()};
+  request.computed.quantities.velocity = request.computed.quantities.stress = true;
+  field = voxel::compute_field(view, solids, request.computed);
+  write_field_files(folder_ / "out", field, view, solids, request);
+  const Vti vti(folder_ / "out/fields.vti");
+  EXPECT_EQ(vti.attribute("Name=\"velocity\"", "NumberOfComponents"), "3");
+  EXPECT_EQ(vti.attribute("Name=\"stress\"", "NumberOfComponents"), "6");
+  openvdb::initialize();
+  openvdb::io::File file((folder_ / "out/fields.vdb").string());
+  file.open();
+  const auto velocity = openvdb::gridPtrCast<openvdb::Vec3SGrid>(file.readGrid("velocity"));
+  EXPECT_TRUE(file.hasGrid("velocity_averaged") && file.hasGrid("pressure") &&
+              file.hasGrid("stress_xz_averaged"));
+  EXPECT_EQ(velocity->metaValue<std::string>("units"), "m/s");
+  EXPECT_NEAR(velocity->indexToWorld(openvdb::Coord(0, 0, 0)).z(), -5e-6, 1e-18);
+  std::size_t active = 0;
+  for (const std::string suffix : {"", "_averaged"}) {
+    const auto v = vti.array("velocity" + suffix), s = vti.array("stress" + suffix);
+    ASSERT_EQ(v.size(), 3 * 20u * 15u * 12u);
+    ASSERT_EQ(s.size(), 6 * 20u * 15u * 12u);
+    for (const voxel::QuantityGrid& q : field.quantities) {
+      const std::string axes = "xyz";
+      const std::vector<std::string> tensor{"xx", "yy", "zz", "xy", "yz", "xz"};
+      const bool vector = q.name == "velocity";
+      if (!vector && q.name != "stress") continue;
+      const auto component = vector
+                                 ? axes.find(q.component)
+                                 : static_cast<std::size_t>(
+                                       std::find(tensor.begin(), tensor.end(), q.component) - tensor.begin());
+      const auto read = (suffix.empty() ? q.grid : q.averaged)->getConstAccessor();
+      const auto& values = vector ? v : s;
+      std::size_t at = component;
+      for (int k = 0; k < 12; ++k)
+        for (int j = 0; j < 15; ++j)
+          for (int i = 0; i < 20; ++i, at += vector ? 3 : 6) {
+            const openvdb::Coord cell(i, j, k);
+            ASSERT_EQ(values[at], read.getValue(cell)) << q.full_name() << cell;
+            if (!vector || !suffix.empty()) continue;
+            ASSERT_EQ(velocity->tree().getValue(cell)[static_cast<int>(component)], read.getValue(cell));
+            active += velocity->tree().isValueOn(cell);
+          }
+    }
+  }
+  EXPECT_EQ(active, 3 * field.solid_fraction->activeVoxelCount());
 }
 
 // More cells than one block of the compressor holds, and a last block that is shorter.
