@@ -63,27 +63,30 @@ Decades deviations_of(const voxel::ScaleReport& report) {
           std::pow(10, std::ceil(std::log10(most * 1.05)))};
 }
 
-/// The lengths that the report finds, as lines through both panels; named above the first.
-std::string marks_of(const Canvas& canvas, const Frame& frame, const voxel::ScaleReport& report, double lo,
-                     double hi, bool labels) {
+/// The lengths that the report finds, as lines through both panels; the note says what they are.
+std::string marks_of(const voxel::ScaleReport& report) {
   std::string commands;
-  const auto mark = [&](double length, const char* name, double y) {
-    if (!std::isfinite(length)) return;
-    const double at = kMicro * length;
+  for (const double length : {report.many_grains_length, report.random_length}) {
+    if (!std::isfinite(length)) continue;
     commands += fmt::format(
         "set arrow from first {0:.9g}, graph 0 to first {0:.9g}, graph 1 nohead front lc rgb '#505050' lw "
         "1.4 "
-        "dt (8,6)\n",
-        at);
-    if (!labels) return;
-    const double x = frame.left + frame.width * std::log(at / lo) / std::log(hi / lo);
-    const bool turn = x > frame.left + 0.6 * frame.width;
-    commands += write(canvas, {turn ? x - 8 : x + 8, y, fmt::format("{} {:.3g} um", name, at), 13,
-                               turn ? "right front tc rgb '#303030'" : "left front tc rgb '#303030'"});
-  };
-  mark(report.many_grains_length, "packing, not single grains, from", frame.top + 18);
-  mark(report.random_length, "no more uneven than at random, from", frame.top + 38);
+        "dt {1}\n",
+        kMicro * length, length == report.many_grains_length ? "(8,6)" : "(2,4)");
+  }
   return commands;
+}
+
+std::string note_of(const ScaleFigure& figure) {
+  const auto& report = figure.report;
+  std::string note = figure.note;
+  if (std::isfinite(report.many_grains_length))
+    note += fmt::format("; dashed vertical: from {:.3g} um on averages show the packing, not single grains",
+                        kMicro * report.many_grains_length);
+  if (std::isfinite(report.random_length))
+    note += fmt::format("; dotted vertical: from {:.3g} um on they are no more uneven than grains at random",
+                        kMicro * report.random_length);
+  return note;
 }
 
 struct PlotElement {
@@ -130,7 +133,7 @@ std::string upper_panel(const Canvas& canvas, const Frame& frame, const voxel::S
                                fmt::format("averaging length in median grain diameters, D50 = {:.3g} um", d),
                                14, "center"});
   }
-  commands += marks_of(canvas, frame, report, lo, hi, true);
+  commands += marks_of(report);
   const std::string mean = curve_colour(0), ends = curve_colour(1);
   const auto band = [&](double shade) {
     return fmt::format("filledcurves lc rgb '{}' fs transparent solid {} noborder", mean, shade);
@@ -143,22 +146,20 @@ std::string upper_panel(const Canvas& canvas, const Frame& frame, const voxel::S
                        {0, "1:5", solid(ends), ""},
                        {1, "1:4", dashed(ends), ""},
                        {1, "1:5", dashed(ends),
-                        fmt::format("dashed: fewer than {:g} such\nwindows side by side",
-                                    voxel::ScaleReport::kIndependent)}});
+                        fmt::format("dotted: fewer than {:g} fit", voxel::ScaleReport::kIndependent)}});
   return commands + "unset label; unset arrow; unset x2tics; set border 3\n";
 }
 
-std::string lower_panel(const Canvas& canvas, const Frame& frame, const voxel::ScaleReport& report, double lo,
-                        double hi) {
+std::string lower_panel(const Canvas& canvas, const Frame& frame, const voxel::ScaleReport& report) {
   const Decades y = deviations_of(report);
   std::string commands = place(canvas, frame);
   commands += fmt::format("set logscale y; set yrange [{:g}:{:g}]; set ytics 10\n", y.lo, y.hi);
   commands += write(canvas, {24, frame.top + 0.5 * frame.height, "standard deviation", 15, "center rotate"});
   commands += fmt::format("set format x '%g'; set xlabel {}\n", text_literal(length_label(report.window)));
-  commands += marks_of(canvas, frame, report, lo, hi, false);
+  commands += marks_of(report);
   commands += plot_of({{0, "1:3", marked(curve_colour(0)), "of the void fraction"},
                        {1, "1:3", dashed(curve_colour(0)), ""},
-                       {0, "1:6", solid(curve_colour(3)), "of as many grains\nplaced at random"},
+                       {0, "1:6", solid(curve_colour(3)), "of grains placed at random"},
                        {0, "1:7", solid(curve_colour(2)), "one grain more or less"}});
   return commands + "unset label; unset arrow\n";
 }
@@ -168,9 +169,9 @@ std::string lower_panel(const Canvas& canvas, const Frame& frame, const voxel::S
 void write_scales(const std::filesystem::path& png, const ScaleFigure& figure, const Formats& formats) {
   const auto& report = figure.report;
   if (report.rows.empty()) throw InputError("a figure of averaging lengths without any");
+  const std::string note = note_of(figure);
   Canvas canvas;
-  canvas.height =
-      top + upper_height + gap + lower_height + foot + foot_note_height(canvas, left, figure.note);
+  canvas.height = top + upper_height + gap + lower_height + foot + foot_note_height(canvas, left, note);
   const Frame upper{left, top, canvas.width - left - right, upper_height};
   const Frame lower{left, top + upper_height + gap, upper.width, lower_height};
   const double lo = kMicro * report.rows.front().length,
@@ -180,14 +181,14 @@ void write_scales(const std::filesystem::path& png, const ScaleFigure& figure, c
       "set xtics (1,2,5,10,20,50,100,200,500,1000,2000,5000,10000,20000,50000,100000)\n"
       "set tics out nomirror font ',14' scale 0.6; set border 3 lw 1.1; set format y '%g'\n"
       "set grid xtics ytics lc rgb '#e4e4e4' lw 0.8 lt 1\nset multiplot\n";
-  script += headline(canvas, left, figure.title) + foot_note(canvas, left, figure.note);
+  script += headline(canvas, left, figure.title) + foot_note(canvas, left, note);
   const auto key = [&](const Frame& frame) {
     return fmt::format(
         "set key at screen {:.5f}, screen {:.5f} left top Left reverse font ',13' samplen 2 spacing 1.3\n",
         canvas.across(frame.left + frame.width + 12), canvas.up(frame.top - 4));
   };
   script += key(upper) + upper_panel(canvas, upper, report, lo, hi);
-  script += key(lower) + lower_panel(canvas, lower, report, lo, hi);
+  script += key(lower) + lower_panel(canvas, lower, report);
   script += "unset multiplot\n";
   draw(png, {canvas.width, canvas.height, data_of(report), script, formats});
 }
