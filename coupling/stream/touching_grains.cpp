@@ -25,25 +25,25 @@ void check_touching(const io::ParticleFrame& frame, const voxel::FieldRequest& r
 
 std::vector<double> touching_grains(const io::ParticleFrame& frame, const voxel::FieldRequest& request) {
   std::vector<double> touched(frame.size(), 0.0);
-  std::vector<dem::GrainRow> rows(frame.size());
+  std::vector<dem::GrainSite> sites(frame.size());
   double largest = 0;
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    rows[i].x = frame.x[i], rows[i].y = frame.y[i], rows[i].z = frame.z[i];
-    rows[i].radius = frame.radius[i];
-    rows[i].id = static_cast<std::int64_t>(i);
+  for (std::size_t i = 0; i < sites.size(); ++i) {
+    sites[i].x = frame.x[i], sites[i].y = frame.y[i], sites[i].z = frame.z[i];
+    sites[i].radius = frame.radius[i];
+    sites[i].id = static_cast<std::int64_t>(i);
     largest = std::max(largest, frame.radius[i]);
   }
   const dem::SearchSpace space{request.lattice.box(), request.periodic, 2 * kTouchingGap * largest};
-  for (const dem::PairRef& pair : dem::find_pairs(rows, space)) {
-    const dem::GrainRow &a = rows[pair.a], &b = rows[pair.b];
+  for (const dem::PairRef& pair : dem::find_pairs(sites, space)) {
+    const dem::GrainSite &a = sites[pair.a], &b = sites[pair.b];
     const double distance = norm(dem::separation(a.position(), b.position(), space));
     if (distance > (a.radius + b.radius) * (1 + kTouchingGap)) continue;
     ++touched[pair.a], ++touched[pair.b];
   }
   for (const io::WallPose& wall : frame.walls)
-    for (std::size_t i = 0; i < rows.size(); ++i)
+    for (std::size_t i = 0; i < sites.size(); ++i)
       touched[i] +=
-          dem::wall_distance(wall.shape, rows[i].position()).distance <= rows[i].radius * (1 + kTouchingGap);
+          dem::wall_distance(wall.shape, sites[i].position()).distance <= sites[i].radius * (1 + kTouchingGap);
   return touched;
 }
 
