@@ -234,7 +234,7 @@ facet normal 0 -1 0 outer loop vertex 0 0 0 vertex .2 0 0 vertex 0 0 .2 endloop 
 facet normal -1 0 0 outer loop vertex 0 0 0 vertex 0 0 .2 vertex 0 .2 0 endloop endfacet
 facet normal 1 1 1 outer loop vertex .2 0 0 vertex 0 .2 0 vertex 0 0 .2 endloop endfacet
 endsolid)";
-  std::ofstream(folder_ / "grain.csv") << "x [mm],y [mm],z [mm],radius [mm]\n0.5,0.5,0.5,0.05\n";
+  std::ofstream(folder_ / "grain.csv") << "x [mm],y [mm],z [mm],radius [mm]\n0.500000,0.500000,0.500000,0.05\n";
   const std::string grain =
       (folder_ / "grain.csv").string() + to_out() +
       "--voxel 30um --box 0mm,0.9mm,0mm,0.9mm,0mm,0.9mm --no-figures --json --overwrite ";

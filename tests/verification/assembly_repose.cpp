@@ -110,10 +110,18 @@ void compare_with_zhou(const Heap& h, double angle) {
       "the fit is of heaps in a deep box, with another rolling-friction law; signs agree, values need not");
 }
 
-// The margin of 1.5 degrees is about what the angles of so small heaps scatter by.
+/// Of several heaps: the angles of single ones scatter by 3.5 degrees.
+double mean_angle_of(const Heap& h, int heaps) {
+  double sum = 0;
+  for (int seed = 1; seed <= heaps; ++seed) sum += angle_of(h, static_cast<std::uint64_t>(seed));
+  return sum / heaps;
+}
+
+// The mean of three scatters by 2 degrees, the difference of two means by 3; rises are 7 or more.
 TEST(Repose, RisesWithSlidingAndWithRollingFriction) {
   const Heap slippery{0.15, 0.05, 20, 8, 4}, usual{0.5, 0.05, 20, 8, 4}, rough{0.5, 0.4, 20, 8, 4};
-  const double low = angle_of(slippery), middle = angle_of(usual), high = angle_of(rough);
+  const double low = mean_angle_of(slippery, 3), middle = mean_angle_of(usual, 3),
+               high = mean_angle_of(rough, 3);
   expect_between(kZhou, "rise of the angle [°] from μ 0.15 to 0.5, μ_r 0.05", middle - low, 1.5, 30);
   expect_between(kZhou, "rise of the angle [°] from μ_r 0.05 to 0.4, μ 0.5", high - middle, 1.5, 30);
   compare_with_zhou(slippery, low);
@@ -134,7 +142,7 @@ TEST(Repose, DISABLED_LongLevelsOffAtHighFriction) {
     last = angle;
   }
   const auto [least, most] = std::minmax_element(flat.begin(), flat.end());
-  expect_between(kZhou, "spread of the angle [°] over μ 1, 2, 10", *most - *least, 0, 2);
+  expect_between(kZhou, "spread of the angle [°] over μ 1, 2, 10", *most - *least, 0, 4);  // single heaps
   const Heap rough = heap(0.3, 0.5);
   const double angle = angle_of(rough);
   compare_with_zhou(rough, angle);
