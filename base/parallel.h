@@ -23,8 +23,7 @@ struct Blocks {
 
 /// Threads that a loop started here may use.
 inline std::size_t threads() {
-  const std::size_t allowed =
-      tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
+  const std::size_t allowed = tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
   return std::min(allowed, static_cast<std::size_t>(tbb::this_task_arena::max_concurrency()));
 }
 

@@ -18,12 +18,14 @@ PairOrder order_pairs(const std::vector<PairRef>& pairs, const Parts& parts, boo
     for (std::size_t b = parts.first_block[p]; b < parts.first_block[p + 1]; ++b)
       part_of_block[b] = static_cast<std::uint16_t>(p);
 
+  // Pairs of rows far from each other, as across a periodic face, would keep everything between in use.
+  const std::size_t farthest = std::max<std::size_t>(4096, rows / 16);
   // A counting sort by the earlier row; keys of pairs inside a part come after those of all shared pairs.
   std::vector<std::uint32_t> key(pairs.size()), start(2 * rows, 0);
   for (std::size_t k = 0; k < pairs.size(); ++k) {
     const auto [first, last] = std::minmax(pairs[k].a, pairs[k].b);
-    const bool shared =
-        all_shared || part_of_block[first / kRowsPerBlock] != part_of_block[last / kRowsPerBlock];
+    const bool shared = all_shared || last - first > farthest ||
+                        part_of_block[first / kRowsPerBlock] != part_of_block[last / kRowsPerBlock];
     key[k] = first + static_cast<std::uint32_t>(shared ? 0 : rows);
     ++start[key[k]];
   }

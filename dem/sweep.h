@@ -32,7 +32,8 @@ struct Parts {
   std::size_t end_row(std::size_t block) const { return std::min(rows, (block + 1) * kRowsPerBlock); }
 };
 
-/// Groups of kLanes pairs: those shared by two parts first, then part by part.
+/// Groups of kLanes pairs: those shared by two parts (or far from each other in memory) first, then part by
+/// part.
 struct Sweep {
   Parts parts;
   std::size_t shared_groups = 0;
