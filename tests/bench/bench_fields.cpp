@@ -9,10 +9,8 @@
 // rounds, and the fastest.
 #include <fmt/format.h>
 #include <openvdb/openvdb.h>
-#include <tbb/global_control.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstring>
 #include <ctime>
@@ -22,7 +20,8 @@
 #include <string>
 #include <vector>
 
-#include "base/random.h"
+#include "tests/bench/powder_spheres.h"
+#include "tests/bench/timing.h"
 #include "voxel/field.h"
 #include "voxel/overlap.h"
 #include "voxel/small_spheres.h"
@@ -30,51 +29,9 @@
 namespace {
 
 using namespace interstice;
+using namespace interstice::bench;
 using voxel::Field;
 using voxel::FieldRequest;
-
-constexpr double kVoxel = 17.3e-6;
-
-struct Bed {
-  std::vector<double> x, y, z, radius;
-  Box box;
-
-  std::size_t size() const { return radius.size(); }
-  voxel::SpheresView view() const {
-    return {radius.size(), x.data(), y.data(), z.data(), radius.data(), nullptr};
-  }
-};
-
-/// Random positions in a layer 0.3 mm high that the spheres would fill to a solid fraction of 0.45. They
-/// overlap, which costs the field no more and no less than if they did not.
-Bed make_bed(std::size_t count) {
-  Bed bed;
-  double volume = 0;
-  Random random(4, 0);
-  while (bed.size() < count) {
-    const double normal =
-        std::sqrt(-2 * std::log(random.uniform())) * std::cos(2 * std::numbers::pi * random.uniform());
-    const double diameter = 39.4e-6 + 10.5e-6 * normal;
-    if (diameter < 5e-6 || diameter > 65e-6) continue;
-    bed.radius.push_back(0.5 * diameter);
-    volume += std::numbers::pi / 6 * diameter * diameter * diameter;
-  }
-  const double height = 0.3e-3, area = volume / (0.45 * height), width = std::sqrt(area / 2.6);
-  bed.box = {{0, 0, 0}, {area / width, width, height}};
-  for (const double r : bed.radius) {
-    bed.x.push_back(random.uniform(r, bed.box.hi.x - r));
-    bed.y.push_back(random.uniform(r, width - r));
-    bed.z.push_back(random.uniform(r, height - r));
-  }
-  return bed;
-}
-
-FieldRequest request_for(const Bed& bed, voxel::Precision precision = voxel::Precision::real64) {
-  FieldRequest request;
-  request.lattice = voxel::cubic_lattice(bed.box, kVoxel);
-  request.precision = precision;
-  return request;
-}
 
 /// One sphere at a time, voxel by voxel through an accessor: the same formula, as one would write it first.
 openvdb::FloatGrid::Ptr straightforward(const Bed& bed, const voxel::Lattice& lattice) {
@@ -90,39 +47,6 @@ openvdb::FloatGrid::Ptr straightforward(const Bed& bed, const voxel::Lattice& la
                             });
   }
   return grid;
-}
-
-double wall_seconds(const std::function<void()>& work) {
-  const auto begin = std::chrono::steady_clock::now();
-  work();
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-}
-
-/// Seconds of the wall clock and of all processors, of one call.
-struct Seconds {
-  double wall = 0, processor = 0;
-};
-Seconds timed(const std::function<void()>& work) {
-  Seconds seconds;
-  const std::clock_t begin = std::clock();
-  seconds.wall = wall_seconds(work);
-  seconds.processor = static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
-  return seconds;
-}
-
-struct Spread {
-  double median, least, most;
-};
-Spread spread_of(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  return {values[values.size() / 2], values.front(), values.back()};
-}
-
-template <class Work>
-void on_threads(int threads, const Work& work) {
-  const tbb::global_control control(tbb::global_control::max_allowed_parallelism,
-                                    static_cast<std::size_t>(threads));
-  work();
 }
 
 void throughput(std::size_t count) {
