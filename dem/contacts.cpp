@@ -106,7 +106,7 @@ void PairContacts::replace(const std::vector<PairRef>& found, const std::vector<
     for (std::size_t k = begin * kLanes; k < end * kLanes; ++k) {
       const auto old = [&](std::uint32_t slot) { return old_slot.empty() ? slot : old_slot[slot]; };
       const std::uint32_t a = old(pairs_[k].a), b = old(pairs_[k].b);
-      if (a == kNoSlot || b == kNoSlot || !(bits_[k / kLanes].listed >> k % kLanes & 1)) continue;
+      if (a == kNoSlot || b == kNoSlot || !is_listed(k)) continue;
       const std::size_t from = old_ends.find(a, b);
       if (from == kNoPair) continue;
       const auto move_bit = [&](std::uint16_t bits, std::uint16_t& to) {
@@ -178,11 +178,10 @@ std::size_t PairContacts::bytes() const {
 std::size_t WallContacts::bytes() const { return bytes_of(entries) + bytes_of(first_); }
 
 std::vector<PairEnds> PairContacts::build_adjacency(const std::vector<GrainSite>& sites) {
-  const auto listed = [&](std::size_t k) { return (bits_[k / kLanes].listed >> k % kLanes & 1) != 0; };
   std::vector<std::uint32_t>& first = first_end_;
   first.assign(sites.size() + 1, 0);
   for (std::size_t k = 0; k < pairs_.size(); ++k) {
-    if (!listed(k)) continue;
+    if (!is_listed(k)) continue;
     ++first[pairs_[k].a + 1];
     ++first[pairs_[k].b + 1];
   }
@@ -191,7 +190,7 @@ std::vector<PairEnds> PairContacts::build_adjacency(const std::vector<GrainSite>
   std::vector<PairEnds> ends_of_pair(pairs_.size(), {0, 0});
   std::vector<std::uint32_t> next(first.begin(), first.end() - 1);
   for (std::uint32_t k = 0; k < pairs_.size(); ++k) {
-    if (!listed(k)) continue;
+    if (!is_listed(k)) continue;
     pair_of_end_[next[pairs_[k].a]++] = k;
     pair_of_end_[next[pairs_[k].b]++] = k;
   }

@@ -131,6 +131,7 @@ class PairContacts {
   static constexpr std::uint32_t kNoSlot = 0xffffffffu;
 
  private:
+  bool is_listed(std::size_t k) const { return (bits_[k / kLanes].listed >> k % kLanes & 1) != 0; }
   void place_pairs(const std::vector<PairRef>& found, const PairOrder& order);
   std::vector<PairEnds> build_adjacency(const std::vector<GrainSite>& sites);
 

@@ -34,7 +34,7 @@ void put_three(const Four& v, Real* at) {
   select(Row::M::from_bits(7), simd::converted<Real>(v), Row::load(at)).store(at);
 }
 
-/// Velocities at the present time from those half a step back, or back to front for -dt/2.
+/// Velocities half a step on.
 inline Four half_step(const Four& velocity, const Four& acceleration, double half_dt) {
   return velocity + Four(half_dt) * acceleration;
 }

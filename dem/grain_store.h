@@ -75,7 +75,6 @@ class GrainStore {
 
   /// While steps follow each other velocities are those of the pair rows.
   void set_stepping(bool stepping);
-  bool stepping() const { return stepping_; }
 
   GrainRow row(std::size_t slot) const;
   GrainSite site(std::size_t slot) const;

@@ -13,8 +13,6 @@ namespace {
 
 constexpr std::int64_t kRebuildsPerSort = 32;
 constexpr std::size_t kPartsPerThread = 4;
-/// Share of the skin beyond which a gap makes a pair far: far pairs need no look until grains have moved by
-/// it.
 
 Vec3d offset_at(const Vec3d& offset, const Vec3d& velocity, std::int64_t steps, double dt) {
   return offset + (static_cast<double>(steps) * dt) * velocity;
@@ -225,8 +223,7 @@ double Simulation::attraction_reach(double largest) const {
 void Simulation::check_periodic_lengths(double largest) const {
   for (int axis = 0; axis < 3; ++axis) {
     const double length = model_.domain.hi[axis] - model_.domain.lo[axis];
-    if (model_.boundary[axis] != AxisBoundary::periodic ||
-        length > 2 * (2 * largest + skin_ + attraction_reach(largest)))
+    if (model_.boundary[axis] != AxisBoundary::periodic || length > 2 * (2 * largest + skin_ + attraction_))
       continue;
     throw InputError(
         "domain.box: the periodic axis " + std::string(1, "xyz"[axis]) +
@@ -249,6 +246,7 @@ void Simulation::rebuild() {
   double largest = 0;
   for (const GrainSite& g : sites) largest = std::max(largest, g.radius);
   choose_gaps(sites);
+  attraction_ = attraction_reach(largest);
   check_periodic_lengths(largest);
   std::vector<std::uint32_t> slot_of_id(static_cast<std::size_t>(next_id_), PairContacts::kNoSlot);
   for (std::uint32_t s = 0; s < built_ids_.size(); ++s)
@@ -259,7 +257,6 @@ void Simulation::rebuild() {
     old_slot[s] = slot_of_id[static_cast<std::size_t>(sites[s].id)];
 
   SearchSpace space = search_space();
-  attraction_ = attraction_reach(largest);
   space.skin += attraction_;
   candidates_ = options_.reference ? find_pairs_brute_force(sites, space) : find_pairs(sites, space);
   refresh(old_slot, sites);
@@ -306,7 +303,8 @@ Parts Simulation::parts() const {
 
 std::size_t Simulation::bytes() const {
   return grains_.bytes() + pair_contacts_.bytes() + wall_contacts_.bytes() +
-         built_ids_.capacity() * sizeof(std::int64_t) + energies_.capacity() * sizeof(GrainEnergy);
+         candidates_.capacity() * sizeof(PairRef) + built_ids_.capacity() * sizeof(std::int64_t) +
+         energies_.capacity() * sizeof(GrainEnergy);
 }
 
 std::vector<std::uint32_t> Simulation::slots_by_id() const {

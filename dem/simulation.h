@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "base/parallel.h"
 #include "dem/columns.h"
 #include "dem/contacts.h"
 #include "dem/energy.h"
@@ -107,7 +108,7 @@ class Simulation {
   double wall_travel() const;
   void begin_step();
   template <class Body>
-  std::vector<PassReport> for_row_blocks(const Body& body);
+  void for_blocks(const Blocks& blocks, const Body& body) const;
   template <class Real>
   void begin_row(PairRow<Real>& row, std::size_t slot, const Four& velocity, const Four& spin,
                  const Four& acceleration, const Four& angular, double dt, const Bounds& bounds,
@@ -134,7 +135,7 @@ class Simulation {
   void restore_springs(const SavedState& state);
   void restore_energies(const SavedState& state);
   double attraction_reach(double largest) const;
-  StepView step_view();
+  StepView step_view(const PairView& pairs) const;
   void count_inserted_contacts();
   double inserted_on_wall(const GrainRow& grain, const WallContact& contact) const;
   template <class Real>
@@ -174,9 +175,8 @@ class Simulation {
   double moved_since_refresh_ = 0;   // at most [m]
   double moved_ = 0;                 // at most this far is any grain from where the list was built [m]
   double fastest_ = 0;               // a bound of the speed in the last step [m/s]
-  std::vector<Shape> refreshed_walls_;  // as they stood when walls near grains were listed
-  std::vector<std::int64_t>
-      built_ids_;  // ids by slot when the list was built, where slots have changed since
+  std::vector<Shape> refreshed_walls_;   // as they stood when walls near grains were listed
+  std::vector<std::int64_t> built_ids_;  // by slot when the list was built; slots may have changed since
   std::int64_t rebuilds_ = 0, sorted_at_ = -1;
 };
 

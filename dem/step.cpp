@@ -5,7 +5,6 @@
 
 #include "base/parallel.h"
 #include "dem/simulation.h"
-#include "dem/wall_distance.h"
 
 namespace interstice::dem {
 namespace {
@@ -87,41 +86,35 @@ inline void Simulation::begin_row(PairRow<Real>& row, std::size_t i, const Four&
   }
 }
 
-/// Calls body(block, begin, end) for blocks of rows, and collects what they report.
+/// Calls body(block, begin, end) for every block, in the reference one after the other.
 template <class Body>
-std::vector<Simulation::PassReport> Simulation::for_row_blocks(const Body& body) {
-  const Blocks blocks{grains_.size(), kRowsPerBlock};
-  std::vector<PassReport> reports(blocks.count());
-  const auto one = [&](std::size_t b, std::size_t begin, std::size_t end) { reports[b] = body(begin, end); };
-  if (options_.reference) {
-    for (std::size_t b = 0; b < blocks.count(); ++b) one(b, blocks.begin(b), blocks.end(b));
-  } else {
-    for_each_block(blocks, one);
-  }
-  return reports;
+void Simulation::for_blocks(const Blocks& blocks, const Body& body) const {
+  if (!options_.reference) return for_each_block(blocks, body);
+  for (std::size_t b = 0; b < blocks.count(); ++b) body(b, blocks.begin(b), blocks.end(b));
 }
 
 /// From present velocities and accelerations.
 void Simulation::begin_step() {
   grains_.with_rows([&](auto& rows) {
-    take_report(for_row_blocks([&](std::size_t begin, std::size_t end) {
-      PassReport report;
-      const Bounds bounds{four(model_.domain.lo), four(model_.domain.hi)};
+    const Blocks blocks{grains_.size(), kRowsPerBlock};
+    std::vector<PassReport> reports(blocks.count());
+    const Bounds bounds{four(model_.domain.lo), four(model_.domain.hi)};
+    for_blocks(blocks, [&](std::size_t b, std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i) {
         const GrainMotion& m = grains_.motions()[i];
         const GrainAcceleration& a = grains_.accelerations()[i];
         begin_row(rows[i], i, four(m.velocity), four(m.spin), four(a.linear), four(a.angular), dt_, bounds,
-                  report);
+                  reports[b]);
       }
-      return report;
-    }));
+    });
+    take_report(reports);
   });
 }
 
-StepView Simulation::step_view() {
+StepView Simulation::step_view(const PairView& pairs) const {
   return {grains_.row_data(),      search_space().period(), dt_,
           model_.slider_velocity,  constants_.data(),       constants_single_.data(),
-          model_.materials.size(), only_material_,          pair_contacts_.view(),
+          model_.materials.size(), only_material_,          pairs,
           walls_.data(),           wall_velocities_.data(), model_.walls.data()};
 }
 
@@ -134,25 +127,18 @@ void Simulation::evaluate_and_move(bool begin_next) {
 
 template <class Real>
 void Simulation::evaluate_and_move(PairRow<Real>* rows, bool begin_next) {
-  StepView view = step_view();
-  view.pairs = pair_contacts_.shared_view();
+  const StepView shared = step_view(pair_contacts_.shared_view()), view = step_view(pair_contacts_.view());
   const Sweep& sweep = pair_contacts_.sweep();
   std::vector<PassReport> reports(sweep.parts.blocks());
-  const auto evaluate = [&](std::size_t, std::size_t begin, std::size_t end) {
-    kernels_.pairs(model_.laws, view, begin, end);
-  };
-  if (options_.reference) {
-    evaluate(0, 0, sweep.shared_groups);
-  } else {
-    for_each_block({sweep.shared_groups, kGroupsPerTask}, evaluate);
-  }
+  for_blocks({sweep.shared_groups, kGroupsPerTask}, [&](std::size_t, std::size_t begin, std::size_t end) {
+    kernels_.pairs(model_.laws, shared, begin, end);
+  });
   if (options_.energies) count_inserted_contacts();
 
-  view.pairs = pair_contacts_.view();
   const auto work_on = [&](std::size_t part) {
     std::size_t group = sweep.first_group[part];
     for (std::size_t b = sweep.parts.first_block[part]; b < sweep.parts.first_block[part + 1]; ++b) {
-      evaluate(b, group, sweep.done_before[b]);
+      kernels_.pairs(model_.laws, view, group, sweep.done_before[b]);
       group = sweep.done_before[b];
       pair_contacts_.fetch_shared(b);
       reports[b] = move_rows(rows, view, sweep.parts.begin_row(b), sweep.parts.end_row(b), begin_next);

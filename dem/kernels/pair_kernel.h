@@ -51,7 +51,7 @@ void store_spring(const TangentialSpring<P>& spring, const typename P::M& kept, 
   select(kept, spring.stiffness, P(0)).store(at + 3 * kLanes);
 }
 
-/// Half a pair's results to each of its ends.
+/// A pair's force and torques, to each of its ends.
 template <class P>
 void store_ends(const PairEnds* ends, const Vec3<P>& force, const Vec3<P>& torque_a, const Vec3<P>& torque_b,
                 RealOf<P>* end_forces) {
