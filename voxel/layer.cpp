@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <string>
 
 #include "base/error.h"
@@ -60,51 +61,58 @@ double top_over(const Lattice& lattice, const PlacedSphere& sphere, std::int64_t
   return static_cast<double>(sphere.cell[2]) * lattice.h.z + sphere.offset.z + std::sqrt(squared);
 }
 
-// Adds the exact share of every sphere in the columns of one block; calls add(column, share, sphere index).
-template <class Add>
-void add_block(const SpheresView& spheres, const Lattice& lattice, const Bins& bins, std::size_t bin,
-               const Add& add) {
-  const CellRange cells = block_cells(lattice, BlockGrid(lattice).block(bins.keys[bin]));
-  double fractions[kBlockCells];
-  for (std::size_t e = bins.first[bin]; e < bins.first[bin + 1]; ++e) {
-    const BinEntry& entry = bins.entries[e];
-    const PlacedSphere sphere = moved(place(lattice, spheres, entry.sphere), lattice, entry.image);
-    const CellRange touched = intersection(bounding_cells(lattice, sphere), cells);
-    if (touched.empty()) continue;
-    exact_fractions(lattice, sphere, touched, fractions);
-    const double* next = fractions;
-    for (std::int64_t i = touched.lo[0]; i < touched.hi[0]; ++i)
-      for (std::int64_t j = touched.lo[1]; j < touched.hi[1]; ++j)
-        add(i, j, *next++, sphere, static_cast<std::size_t>(entry.sphere));
+// Volumes [m^3] of the sphere over each of the columns `touched`, y fastest.
+void volumes_over(const Lattice& stand, const PlacedSphere& sphere, const CellRange& touched,
+                  double* volumes) {
+  const CellRange around = bounding_cells(stand, sphere);
+  if (around.size(0) * around.size(1) * around.size(2) == 1) {  // wholly in that one
+    *volumes = 4 * std::numbers::pi / 3 * (sphere.radius * sphere.radius * sphere.radius);
+    return;
   }
+  exact_fractions(stand, sphere, touched, volumes);
+  const double cell = stand.cell_volume();
+  for (std::int64_t c = touched.size(0) * touched.size(1) - 1; c >= 0; --c) volumes[c] *= cell;
+}
+
+// Adds all that one sphere brings to the columns of `block`.
+void add_sphere(const SpheresView& spheres, const LayerRequest& request, const Stands& stands,
+                const BinEntry& entry, const CellRange& block, Sums& sums) {
+  const PlacedSphere sphere = moved(place(stands.whole, spheres, entry.sphere), stands.whole, entry.image);
+  const CellRange touched = intersection(bounding_cells(stands.whole, sphere), block);
+  if (touched.empty()) return;
+  double whole[kBlockCells], cut[kBlockCells];
+  volumes_over(stands.whole, sphere, touched, whole);
+  // Most spheres lie below the top of the gap, or above it: only those that it cuts are worked on twice.
+  const double height = static_cast<double>(sphere.cell[2]) * stands.whole.h.z + sphere.offset.z;
+  const bool within = height + sphere.radius <= stands.gap.h.z;
+  const bool above = height - sphere.radius >= stands.gap.h.z;
+  if (!within && !above)
+    volumes_over(stands.gap, moved(place(stands.gap, spheres, entry.sphere), stands.gap, entry.image),
+                 touched, cut);
+  const double* const gap = within ? whole : cut;
+  const double density =
+      spheres.density ? spheres.density[static_cast<std::size_t>(entry.sphere)] : request.density;
+  std::size_t next = 0;
+  for (std::int64_t i = touched.lo[0]; i < touched.hi[0]; ++i)
+    for (std::int64_t j = touched.lo[1]; j < touched.hi[1]; ++j, ++next) {
+      const auto c = static_cast<std::size_t>(i + stands.gap.n[0] * j);
+      sums.whole[c] += whole[next];
+      sums.top[c] = std::max(sums.top[c], top_over(stands.whole, sphere, i, j));
+      if (above) continue;
+      sums.gap[c] += gap[next];
+      sums.mass[c] += gap[next] * density;
+    }
 }
 
 Sums sums_of(const SpheresView& spheres, const LayerRequest& request, const Stands& stands) {
-  const std::array<bool, 3> periodic{request.periodic[0], request.periodic[1], false};
   const auto columns = static_cast<std::size_t>(stands.gap.cells());
   Sums sums{std::vector<double>(columns), std::vector<double>(columns), std::vector<double>(columns),
             std::vector<double>(columns)};
-  const auto at = [&](std::int64_t i, std::int64_t j) {
-    return static_cast<std::size_t>(i + stands.gap.n[0] * j);
-  };
-  const double gap_volume = stands.gap.cell_volume(), whole_volume = stands.whole.cell_volume();
-
-  const Bins in_gap = bin_spheres(spheres, stands.gap, periodic);
-  for_each_block({in_gap.keys.size(), 1}, [&](std::size_t b, std::size_t, std::size_t) {
-    add_block(spheres, stands.gap, in_gap, b,
-              [&](std::int64_t i, std::int64_t j, double share, const PlacedSphere&, std::size_t s) {
-                sums.gap[at(i, j)] += share * gap_volume;
-                sums.mass[at(i, j)] +=
-                    share * gap_volume * (spheres.density ? spheres.density[s] : request.density);
-              });
-  });
-  const Bins above_floor = bin_spheres(spheres, stands.whole, periodic);
-  for_each_block({above_floor.keys.size(), 1}, [&](std::size_t b, std::size_t, std::size_t) {
-    add_block(spheres, stands.whole, above_floor, b,
-              [&](std::int64_t i, std::int64_t j, double share, const PlacedSphere& sphere, std::size_t) {
-                sums.whole[at(i, j)] += share * whole_volume;
-                sums.top[at(i, j)] = std::max(sums.top[at(i, j)], top_over(stands.whole, sphere, i, j));
-              });
+  const Bins bins = bin_spheres(spheres, stands.whole, {request.periodic[0], request.periodic[1], false});
+  for_each_block({bins.keys.size(), 1}, [&](std::size_t b, std::size_t, std::size_t) {
+    const CellRange block = block_cells(stands.whole, BlockGrid(stands.whole).block(bins.keys[b]));
+    for (std::size_t e = bins.first[b]; e < bins.first[b + 1]; ++e)
+      add_sphere(spheres, request, stands, bins.entries[e], block, sums);
   });
   return sums;
 }

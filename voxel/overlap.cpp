@@ -1,6 +1,7 @@
 #include "voxel/overlap.h"
 
 #include <algorithm>
+#include <type_traits>
 
 #include "voxel/overlap_large.h"
 
@@ -17,6 +18,14 @@ constexpr double kLargeSphere = 125'000;
 constexpr int kPadded = 12;
 static_assert(kPadded > kBlock);
 
+// Calls body(std::integral_constant<int, N>) with the least such N that holds the planes of so many cells.
+template <class Body>
+void with_lanes(int cells, const Body& body) {
+  if (cells < 4) return body(std::integral_constant<int, 4>());
+  if (cells < 8) return body(std::integral_constant<int, 8>());
+  body(std::integral_constant<int, kPadded>());
+}
+
 // The planes of a block that are normal to one axis, as seen from the sphere: coordinates in units of its
 // radius. Padding repeats the last plane; cells between padded planes are never read.
 struct Planes {
@@ -29,21 +38,26 @@ struct Planes {
   double nearest[kPadded], farthest[kPadded];  // squared distance from the centre over each cell
 };
 
+template <int Lanes>
 void finish(Planes& p) {
-  for (int i = p.cells + 1; i < kPadded; ++i) p.edge[i] = p.edge[p.cells];
-  for (int i = 0; i < kPadded; ++i) {
+  for (int i = p.cells + 1; i < Lanes; ++i) p.edge[i] = p.edge[p.cells];
+  for (int i = 0; i < Lanes; ++i) {
     const double u = std::clamp(p.edge[i], -1.0, 1.0);
     p.u[i] = u;
     p.square[i] = u * u;
     p.sign[i] = u > 0 ? 1.0 : u < 0 ? -1.0 : 0.0;
     p.cap[i] = 0.25 * ball_cap(std::abs(u));
   }
-  for (int i = 0; i < kPadded; ++i) {
-    const double a = p.edge[i], b = p.edge[std::min(i + 1, kPadded - 1)];
+  for (int i = 0; i < Lanes; ++i) {
+    const double a = p.edge[i], b = p.edge[std::min(i + 1, Lanes - 1)];
     const double inner = std::max({a, -b, 0.0}), outer = std::max(std::abs(a), std::abs(b));
     p.nearest[i] = inner * inner;
     p.farthest[i] = outer * outer;
   }
+}
+
+void finish(Planes& p) {
+  with_lanes(p.cells, [&](auto lanes) { finish<lanes>(p); });
 }
 
 Planes planes_of(const Lattice& lattice, const PlacedSphere& sphere, const CellRange& block, int axis) {
@@ -165,8 +179,7 @@ void large_sphere(const Planes& x, const Planes& y, const Planes& z, double scal
 void cell_volumes(const Planes& x, const Planes& y, const Planes& z, bool large, double scale, double full,
                   double* out) {
   if (large) return large_sphere(x, y, z, scale, full, out);
-  if (z.cells < 8) return closed_form<8>(x, y, z, scale, full, out);
-  closed_form<kPadded>(x, y, z, scale, full, out);
+  with_lanes(z.cells, [&](auto lanes) { closed_form<lanes>(x, y, z, scale, full, out); });
 }
 
 bool is_large(double radius, const Vec3d& edges) {

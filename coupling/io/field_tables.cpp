@@ -2,9 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <iterator>
+#include <limits>
 #include <vector>
 
 namespace interstice::io {
@@ -25,6 +27,29 @@ void add_stored(Text& out, double value, char after = ',') {
     add(out, value, after);
   }
 }
+
+// One coordinate of the voxels of a slice: the same along a row, or the same in every row, so its digits are
+// found once.
+class Coordinate {
+ public:
+  explicit Coordinate(std::size_t columns) : known_(columns) {}
+
+  void add(Text& out, std::size_t column, double value) {
+    Known& known = known_[column];
+    if (known.value != value) {
+      const Known& beside = known_[column > 0 ? column - 1 : 0];
+      known = beside.value == value ? beside : Known{value, fmt::format("{},", value)};
+    }
+    out.append(known.text);
+  }
+
+ private:
+  struct Known {
+    double value = std::numeric_limits<double>::quiet_NaN();
+    std::string text;
+  };
+  std::vector<Known> known_;
+};
 
 std::string heading(const voxel::Samples& samples) {
   std::string head = "x_m,y_m,z_m,void_fraction,solid_fraction,mass_density_kg_m3";
@@ -56,12 +81,13 @@ std::string csv_of(const voxel::Samples& samples) {
     others.push_back(&q.values);
     if (!q.averaged.empty()) others.push_back(&q.averaged);
   }
+  const auto columns = static_cast<std::size_t>(std::max<std::int64_t>(1, samples.columns));
+  std::vector<Coordinate> coordinates(3, Coordinate(columns));
   Text out;
   out.append(heading(samples));
   for (std::size_t i = 0; i < samples.center.size(); ++i) {
-    add(out, samples.center[i].x);
-    add(out, samples.center[i].y);
-    add(out, samples.center[i].z);
+    for (int axis = 0; axis < 3; ++axis)
+      coordinates[static_cast<std::size_t>(axis)].add(out, i % columns, samples.center[i][axis]);
     add_stored(out, samples.void_fraction[i]);
     add_stored(out, samples.solid_fraction[i]);
     add_stored(out, dense ? samples.mass_density[i] : std::nan(""), others.empty() ? '\n' : ',');

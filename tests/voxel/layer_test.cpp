@@ -18,17 +18,23 @@ Spheres grains(std::size_t count = 150) {
   return random_spheres(count, {{-20e-6, -20e-6, 0}, {320e-6, 220e-6, 110e-6}}, 2.5e-6, 32.5e-6, 61);
 }
 
-TEST(LayerColumns, AreSumsOverSpheres) {
-  const LayerRequest request = request_for(9, 4);
+// Gaps higher than the spheres, and lower, so that floor and top cut the same sphere.
+class LayerColumnsOf : public testing::TestWithParam<double> {};
+INSTANTIATE_TEST_SUITE_P(Heights, LayerColumnsOf, testing::Values(80e-6, 15e-6));
+
+TEST_P(LayerColumnsOf, AreSumsOverSpheres) {
+  LayerRequest request = request_for(9, 4);
+  const double gap_height = GetParam(), ceiling = 10e-6 + gap_height;
+  request.box.hi.z = ceiling;
   const Spheres spheres = grains();
-  const Solids walls{{Box{{-1, -1, -1}, {50e-6, 77e-6, 60e-6}}}};
+  const Solids walls{{Box{{-1, -1, -1}, {50e-6, 77e-6, 10e-6 + 0.6 * gap_height}}}};
   const LayerColumns columns = layer_columns(spheres.view(), walls, request);
   const double dx = 300e-6 / 9, dy = 200e-6 / 4;
   ASSERT_EQ(columns.solid_fraction.size(), 36u);
   for (int j = 0; j < 4; ++j)
     for (int i = 0; i < 9; ++i) {
       const auto c = static_cast<std::size_t>(i + 9 * j);
-      const Box gap{{i * dx, j * dy, 10e-6}, {(i + 1) * dx, (j + 1) * dy, 90e-6}};
+      const Box gap{{i * dx, j * dy, 10e-6}, {(i + 1) * dx, (j + 1) * dy, ceiling}};
       Box whole = gap;
       whole.hi.z = 1;
       double in_gap = 0, above = 0, top = 0;
@@ -47,7 +53,7 @@ TEST(LayerColumns, AreSumsOverSpheres) {
       EXPECT_NEAR(columns.available_volume[c] / gap.volume(), available / gap.volume(), 1e-13);
       EXPECT_NEAR(columns.solid_fraction[c], in_gap / available, 1e-12);
       EXPECT_NEAR(columns.mass_density[c], 4430 * in_gap / available, 4430 * 1e-12);
-      const double height = above / (available / 80e-6);  // per area that the wall leaves free
+      const double height = above / (available / gap_height);  // per area that the wall leaves free
       EXPECT_NEAR(columns.solid_height[c], height, 1e-4 * 1e-12);
       EXPECT_NEAR(columns.surface_height[c], top, 1e-4 * 1e-12);
       EXPECT_NEAR(columns.solid_fraction_below_surface[c], top > 0 ? height / top : 0, 1e-11);
