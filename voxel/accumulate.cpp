@@ -214,17 +214,20 @@ void keep(const Channels& channels, const double* sums, std::int64_t plane, cons
 double finish_quantity(const Output& output, const CellRange& cells, const CellRows& rows, Leaf& leaf) {
   float* values = leaf.buffer().data();
   std::uint8_t on[kBlock * kBlock] = {};
-  double sum = 0;
-  for_rows(cells, [&](std::int64_t row, std::int64_t i, std::int64_t j) {
-    const double* sums = sums_of_row(rows, cells, i, j);
-    for (std::int64_t k = 0; k < cells.size(2); ++k) {
-      if (sums[k] == 0) continue;
-      const double part = part_of(output, sums + k, rows.plane());
-      if (output.reading == Reading::mask && part == 0) continue;
-      sum += part;
-      on[row] = static_cast<std::uint8_t>(on[row] | 1U << k);
-      values[row * kBlock + k] = static_cast<float>(output.quantity.per_solid ? part / sums[k] : part);
-    }
+  const bool per_solid = output.quantity.per_solid, mask = output.reading == Reading::mask;
+  const double sum = with_part_of(output, rows.plane(), [&](const auto& part) {
+    double total = 0;
+    for_rows(cells, [&](std::int64_t row, std::int64_t i, std::int64_t j) {
+      const double* sums = sums_of_row(rows, cells, i, j);
+      for (std::int64_t k = 0; k < cells.size(2); ++k) {
+        const double own = part(sums + k);
+        const bool has = sums[k] != 0 && !(mask && own == 0);
+        on[row] |= static_cast<std::uint8_t>(has << k);
+        total += has ? own : 0.0;
+        values[row * kBlock + k] = has ? static_cast<float>(per_solid ? own / sums[k] : own) : 0.0f;
+      }
+    });
+    return total;
   });
   set_active(leaf, on);
   return sum;

@@ -1,6 +1,7 @@
 #include "voxel/channels.h"
 
-#include <limits>
+#include <algorithm>
+#include <optional>
 
 #include "voxel/sum.h"
 
@@ -18,9 +19,9 @@ class Layout {
     output(name, component, units, per_solid, Reading::sum, ++channels_.linear);
   }
   void output(const std::string& name, const char* component, const char* units, bool per_solid,
-              Reading reading, int channel) {
+              Reading reading, int channel, double factor = 1) {
     channels_.outputs.push_back(
-        {{name, component, units, per_solid, nullptr, nullptr, 0, 0}, reading, channel});
+        {{name, component, units, per_solid, nullptr, nullptr, 0, 0}, reading, channel, factor});
   }
 
  private:
@@ -30,9 +31,28 @@ class Layout {
 constexpr const char* kTensor[] = {"xx", "yy", "zz", "xy", "yz", "xz"};
 constexpr const char* kAxes[] = {"x", "y", "z"};
 
-void lay_out(const QuantityRequest& request, bool mass, Channels& channels) {
+/// What is known of the spheres' density: nothing, one for all, or that it differs.
+struct Density {
+  bool known = false;
+  std::optional<double> common;
+
+  bool differs() const { return known && !common; }
+};
+
+Density density_of(const SpheresView& spheres, double given) {
+  if (!spheres.density) return {given > 0, given};
+  const double* const end = spheres.density + spheres.count;
+  const double first = spheres.count > 0 ? *spheres.density : 0.0;
+  if (std::all_of(spheres.density, end, [&](double density) { return density == first; }))
+    return {true, first};
+  return {true, {}};
+}
+
+void lay_out(const QuantityRequest& request, const Density& density, Channels& channels) {
   Layout layout(channels);
-  if (mass) layout.add("mass_density", "", "kg/m^3", false);
+  if (density.differs()) layout.add("mass_density", "", "kg/m^3", false);
+  if (density.known && density.common)
+    layout.output("mass_density", "", "kg/m^3", false, Reading::sum, 0, *density.common);
   if (request.diameter) layout.add("mean_diameter", "", "m", true);
   if (request.coordination) layout.add("coordination", "", "1", true);
   if (request.stress) {
@@ -56,12 +76,13 @@ void lay_out(const QuantityRequest& request, bool mass, Channels& channels) {
     layout.output("temperature", "", "m^2/s^2", true, Reading::second_moment, channels.first_velocity() + 3);
 }
 
-void fill_weights(const SpheresView& spheres, const QuantityRequest& request, double density, bool mass,
+void fill_weights(const SpheresView& spheres, const QuantityRequest& request, const Density& density,
                   Channels& channels) {
+  if (channels.linear == 0) return;
   channels.weights.reserve(spheres.count * static_cast<std::size_t>(channels.linear));
   for (std::size_t s = 0; s < spheres.count; ++s) {  // in the order of lay_out
     const auto add = [&](double weight) { channels.weights.push_back(weight); };
-    if (mass) add(spheres.density ? spheres.density[s] : density);
+    if (density.differs()) add(spheres.density[s]);
     if (request.diameter) add(2 * spheres.radius[s]);
     if (request.coordination) add(spheres.coordination[s]);
     for (std::size_t c = 0; c < 6 && request.stress; ++c) add(spheres.stress[c][s]);
@@ -84,32 +105,14 @@ Vec3d mean_velocity(const SpheresView& spheres) {
 }  // namespace
 
 Channels channels_for(const SpheresView& spheres, const QuantityRequest& request, double density) {
-  const bool mass = spheres.density || density > 0;
+  const Density known = density_of(spheres, density);
   Channels channels;
-  lay_out(request, mass, channels);
-  fill_weights(spheres, request, density, mass, channels);
+  lay_out(request, known, channels);
+  fill_weights(spheres, request, known, channels);
   channels.group = spheres.group;
   channels.v = spheres.velocity;
   if (channels.velocity) channels.reference = mean_velocity(spheres);
   return channels;
-}
-
-double part_of(const Output& output, const double* at, std::int64_t plane) {
-  const auto channel = [&](int c) { return at[c * plane]; };
-  const double solid = at[0];
-  switch (output.reading) {
-    case Reading::sum:
-      return channel(output.channel);
-    case Reading::pressure:
-      return -(channel(output.channel) + channel(output.channel + 1) + channel(output.channel + 2)) / 3;
-    case Reading::mean_velocity:
-      return solid * channel(output.channel);
-    case Reading::second_moment:
-      return channel(output.channel) / 3;
-    case Reading::mask:
-      return channel(output.channel) > 0 ? solid : 0.0;
-  }
-  return std::numeric_limits<double>::quiet_NaN();
 }
 
 double windowed_part_of(const Output& output, const Channels& channels, const double* at,
@@ -120,7 +123,8 @@ double windowed_part_of(const Output& output, const Channels& channels, const do
   };
   if (output.reading == Reading::mean_velocity)
     return solid * relative(output.channel - channels.first_velocity());
-  if (output.reading != Reading::second_moment) return part_of(output, at, plane);
+  if (output.reading != Reading::second_moment)
+    return with_part_of(output, plane, [&](const auto& part) { return part(at); });
   const Vec3d u{relative(0), relative(1), relative(2)};
   return (at[output.channel * plane] + solid * dot(u, u)) / 3;
 }

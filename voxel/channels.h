@@ -26,7 +26,8 @@ enum class Reading { sum, mean_velocity, second_moment, pressure, mask };
 struct Output {
   QuantityGrid quantity;  // its grids are still null
   Reading reading = Reading::sum;
-  int channel = 0;  // that is read; pressure: the first of the three that it is the mean of
+  int channel = 0;    // that is read; pressure: the first of the three that it is the mean of
+  double factor = 1;  // of Reading::sum
 
   bool is_mass() const { return quantity.name == "mass_density"; }
   bool averageable() const { return reading != Reading::mask && !is_mass(); }
@@ -44,6 +45,7 @@ struct Channels {
   int count() const { return 1 + linear + groups + (velocity ? 3 : 0) + (moment ? 1 : 0); }
   int first_velocity() const { return 1 + linear + groups; }
   bool none() const { return outputs.empty(); }
+  bool only_shares() const { return count() == 1; }
   const double* weights_of(std::size_t sphere) const {
     return weights.data() + sphere * static_cast<std::size_t>(linear);
   }
@@ -54,8 +56,27 @@ struct Channels {
 Channels channels_for(const SpheresView& spheres, const QuantityRequest& request, double density);
 
 /// What sums and conservation are about: the quantity's part of the cell. The quantity is this itself, or
-/// this over the solid. `at` is the cell's channel 0, channels are `plane` apart.
-double part_of(const Output& output, const double* at, std::int64_t plane);
+/// this over the solid. Calls visit(part), where part(at) is a cell's, `at` its channel 0, channels `plane`
+/// apart: how a quantity is read is found once, not in each cell.
+template <class Visit>
+auto with_part_of(const Output& output, std::int64_t plane, const Visit& visit) {
+  const std::int64_t channel = output.channel * plane;
+  switch (output.reading) {
+    case Reading::pressure:
+      return visit([=](const double* at) {
+        return -(at[channel] + at[channel + plane] + at[channel + 2 * plane]) / 3;
+      });
+    case Reading::mean_velocity:
+      return visit([=](const double* at) { return at[0] * at[channel]; });
+    case Reading::second_moment:
+      return visit([=](const double* at) { return at[channel] / 3; });
+    case Reading::mask:
+      return visit([=](const double* at) { return at[channel] > 0 ? at[0] : 0.0; });
+    case Reading::sum:
+      break;
+  }
+  return visit([=, factor = output.factor](const double* at) { return factor * at[channel]; });
+}
 
 /// The same for sums over an averaging window: velocities are relative to the reference, and the second
 /// moment is about it.

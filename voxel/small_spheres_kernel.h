@@ -282,7 +282,7 @@ HWY_INLINE void add_row(const T* shares, std::size_t sphere, const Channels& cha
     const Vec<double> share = load_double(shares + k), before = hn::LoadU(d, row + k);
     const Vec<double> after = hn::Add(before, share);
     hn::StoreU(after, d, row + k);
-    if (channels.none()) return;
+    if (channels.only_shares()) return;
     double* at = row + k + plane;
     const double* weights = channels.weights_of(sphere);
     for (int c = 0; c < channels.linear; ++c, at += plane)

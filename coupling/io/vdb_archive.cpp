@@ -15,7 +15,10 @@ class Archive : public openvdb::io::Archive {
  public:
   // Values of active voxels only, as they are: digits of fractions hardly compress. Blosc would take a
   // sixteenth off a dense bed's file and more than double the time of writing it.
-  Archive() { setCompression(openvdb::io::COMPRESS_ACTIVE_MASK); }
+  Archive() {
+    setCompression(openvdb::io::COMPRESS_ACTIVE_MASK);
+    setGridStatsMetadataEnabled(false);  // the grids bring theirs along
+  }
 
   void write_to(std::ostream& out, const openvdb::GridCPtrVec& grids,
                 const openvdb::MetaMap& metadata) const {
@@ -25,6 +28,19 @@ class Archive : public openvdb::io::Archive {
 };
 
 }  // namespace
+
+void add_statistics(openvdb::GridBase& grid, const openvdb::GridCPtrVec& before) {
+  const auto* own = dynamic_cast<const openvdb::FloatGrid*>(&grid);
+  for (const auto& other : before) {
+    const auto* same = dynamic_cast<const openvdb::FloatGrid*>(other.get());
+    if (!own || !same || !own->tree().hasSameTopology(same->tree())) continue;
+    const openvdb::MetaMap::Ptr statistics = same->getStatsMetadata();
+    for (auto entry = statistics->beginMeta(); entry != statistics->endMeta(); ++entry)
+      grid.insertMeta(entry->first, *entry->second);
+    return;
+  }
+  grid.addStatsMetadata();
+}
 
 void write_grids(const std::filesystem::path& path, const openvdb::GridCPtrVec& grids,
                  const openvdb::MetaMap& metadata) {

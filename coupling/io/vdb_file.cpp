@@ -62,6 +62,7 @@ void write_vdb(const std::filesystem::path& path, const voxel::Field& field,
   openvdb::GridCPtrVec grids;
   const auto keep = [&](const openvdb::GridBase::Ptr& grid) {
     add_origin(*grid, request);
+    add_statistics(*grid, grids);
     grids.push_back(grid);
   };
   const auto add = [&](const openvdb::FloatGrid::Ptr& grid, const std::string& name) {

@@ -164,6 +164,7 @@ void write_difference(const std::filesystem::path& path_without_extension, const
                            field.solid_fraction_averaged}) {
     if (!grid) continue;
     grid->insertMeta("source", openvdb::StringMetadata(source));
+    io::add_statistics(*grid, grids);
     grids.push_back(grid);
   }
   auto path = path_without_extension;

@@ -392,6 +392,22 @@ TEST(ComputeField, MassFollowsEachSpheresOwnDensity) {
   expect_same_bits(field, compute_field(spheres.view(), {}, request));
 }
 
+// One density for all takes no sum of its own: as that of differing ones, to rounding, and as much in all.
+TEST(ComputeField, MassOfOneDensityIsThatOfManyThatHardlyDiffer) {
+  Spheres one = random_spheres(200, {{0, 0, 0}, {160e-6, 90e-6, 120e-6}}, 2e-6, 30e-6, 7), many = one;
+  one.density.assign(one.size(), 8200);
+  many.density = one.density;
+  many.density.back() = std::nextafter(8200.0, 9000.0);
+  const FieldRequest request = request_for({{0, 0, 0}, {160e-6, 90e-6, 120e-6}}, 10e-6);
+  const Field a = compute_field(one.view(), {}, request), b = compute_field(many.view(), {}, request);
+  ASSERT_TRUE(a.mass_density && b.mass_density);
+  EXPECT_TRUE(a.mass_density->tree().hasSameTopology(b.mass_density->tree()));
+  EXPECT_TRUE(a.mass_density->tree().hasSameTopology(a.solid_fraction->tree()));
+  for (auto voxel = a.mass_density->cbeginValueOn(); voxel; ++voxel)  // a float's rounding of either
+    EXPECT_NEAR(*voxel, b.mass_density->tree().getValue(voxel.getCoord()), 1.3e-7f * *voxel);
+  EXPECT_NEAR(a.sums.mass / b.sums.mass, 1, 1e-14);
+}
+
 TEST(ComputeField, RefusesBadInput) {
   const FieldRequest good = request_for(bed_box(), 10e-6);
   const double inf = std::numeric_limits<double>::infinity(), nan = std::nan("");

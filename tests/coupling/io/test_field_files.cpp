@@ -56,7 +56,12 @@ TEST_F(FieldFiles, VdbHoldsAllGridsAndMetadata) {
   EXPECT_NE(meta->metaValue<std::string>("box"), "");
   for (const char* name : {"void_fraction", "solid_fraction", "available_fraction", "mass_density",
                            "void_fraction_averaged", "solid_fraction_averaged"}) {
-    EXPECT_TRUE(file.hasGrid(name)) << name;
+    ASSERT_TRUE(file.hasGrid(name)) << name;
+    const auto grid = file.readGrid(name);
+    EXPECT_EQ(grid->metaValue<std::int64_t>("file_voxel_count"), grid->activeVoxelCount()) << name;
+    const openvdb::CoordBBox box = grid->evalActiveVoxelBoundingBox();
+    EXPECT_EQ(grid->metaValue<openvdb::Vec3i>("file_bbox_min"), box.min().asVec3i()) << name;
+    EXPECT_EQ(grid->metaValue<openvdb::Vec3i>("file_bbox_max"), box.max().asVec3i()) << name;
   }
   const auto solid = openvdb::gridPtrCast<openvdb::FloatGrid>(file.readGrid("solid_fraction"));
   EXPECT_EQ(solid->background(), 0.0f);
