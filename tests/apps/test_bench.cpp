@@ -1,0 +1,61 @@
+// `interstice bench`: its beds must be at rest, or what is timed on them means nothing. Equal frictional
+// spheres that settle under their weight touch four to six others on average (4 where friction is infinite, 6
+// without it: Silbert et al., Phys. Rev. E 65, 031304, 2002), and the floor carries them all.
+#include <nlohmann/json.hpp>
+
+#include "command_test.h"
+
+namespace interstice::testing {
+namespace {
+
+using Json = nlohmann::json;
+
+class Bench : public CommandTest {
+ protected:
+  Json bench(const std::string& options) const {
+    const Outcome r = interstice("bench --blocks 2 --steps 10 " + options);
+    EXPECT_EQ(r.status, 0) << r.err;
+    return r.status == 0 ? Json::parse(r.out) : Json();
+  }
+};
+
+void expect_at_rest(const Json& state) {
+  EXPECT_GT(state["coordination"], 4.0);
+  EXPECT_LT(state["coordination"], 5.0);
+  EXPECT_NEAR(state["floor_force_over_weight"], 1, 0.15);  // what is left of the bed's swinging
+  EXPECT_LT(state["kinetic_energy_over_mgd"], 1e-5);
+}
+
+TEST_F(Bench, MadeBedsAreAtRestWrittenAndReadBackToo) {
+  const std::string bed = at("bed.dump");
+  const Json made = bench("--sizes equal --grains 1458 --write-bed '" + bed + "'")["steps"];
+  EXPECT_EQ(made["grains"], 1458);
+  expect_at_rest(made["before"]);
+  expect_at_rest(made["after"]);
+
+  // Nothing but positions and radii is in the file: friction has to build up anew, and few contacts may go.
+  const Json read = bench("--bed '" + bed + "' --periodic --warm-up 2000")["steps"];
+  expect_at_rest(read["before"]);
+  EXPECT_NEAR(read["before"]["coordination"], made["before"]["coordination"], 0.1);
+
+  const Json copies = bench("--bed '" + bed + "' --grains 6000")["steps"];
+  EXPECT_EQ(copies["grains"], 4 * 1458);
+  EXPECT_DOUBLE_EQ(copies["before"]["coordination"], made["before"]["coordination"]);
+  EXPECT_DOUBLE_EQ(
+      copies["ns_per_contact_step"].get<double>(),
+      copies["ns_per_particle_step"].get<double>() / copies["before"]["contacts_per_grain"].get<double>());
+}
+
+TEST_F(Bench, WhatCannotBeMeasuredIsRefused) {
+  for (const auto& [options, words] : {std::pair{"--sizes huge", "--sizes huge is not known; one of powder"},
+                                       {"--blocks 0", "at least 1"},
+                                       {"--warm-up -1", "at least 0"},
+                                       {"--bed nowhere.dump", "nowhere.dump"}}) {
+    const Outcome r = interstice(std::string("bench ") + options);
+    EXPECT_EQ(r.status, 2) << options;
+    EXPECT_NE(r.err.find(words), std::string::npos) << r.err;
+  }
+}
+
+}  // namespace
+}  // namespace interstice::testing
