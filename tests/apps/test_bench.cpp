@@ -23,7 +23,7 @@ void expect_at_rest(const Json& state) {
   EXPECT_GT(state["coordination"], 4.0);
   EXPECT_LT(state["coordination"], 5.0);
   EXPECT_NEAR(state["floor_force_over_weight"], 1, 0.15);  // what is left of the bed's swinging
-  EXPECT_LT(state["kinetic_energy_over_mgd"], 1e-5);
+  EXPECT_LT(state["kinetic_energy_over_mgd"], 1e-4);  // a tenth of what scenes call settled
 }
 
 TEST_F(Bench, MadeBedsAreAtRestWrittenAndReadBackToo) {
