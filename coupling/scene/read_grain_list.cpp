@@ -1,9 +1,10 @@
 // Placement lists: CSV with the unit of each column in its header, "x [um], y [um], z [um], diameter [um]".
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
-#include <cmath>
-#include <map>
+#include <bit>
+#include <cstdint>
 
 #include "coupling/scene/readers.h"
 
@@ -46,17 +47,46 @@ struct Cell {
   int column = 1;  // where its text starts in the line
 };
 
-std::vector<Cell> split_cells(std::string_view line) {
-  std::vector<Cell> cells;
+/// Into a vector that is used again for the next line: a list may have millions.
+void split_cells(std::string_view line, std::vector<Cell>& cells) {
+  cells.clear();
   for (std::size_t start = 0;;) {
     const std::size_t end = std::min(line.find(',', start), line.size());
     const std::string_view text = trim(line.substr(start, end - start));
     const std::size_t at = text.empty() ? start : static_cast<std::size_t>(text.data() - line.data());
     cells.push_back({text, static_cast<int>(at) + 1});
-    if (end == line.size()) return cells;
+    if (end == line.size()) return;
     start = end + 1;
   }
 }
+
+/// Where grains are, to find one at the very place of another: places open-addressed, for a list of a known
+/// length.
+class PlaceTable {
+ public:
+  explicit PlaceTable(std::size_t rows) : slots_(std::bit_ceil(2 * rows + 2), kFree) {}
+
+  /// The grain that is there already, or `index`, which then is.
+  std::size_t try_add(const std::vector<PlacedGrain>& grains, const Vec3d& place, std::size_t index) {
+    for (std::size_t slot = hash(place);; ++slot) {
+      std::uint32_t& found = slots_[slot & (slots_.size() - 1)];
+      if (found == kFree) return found = static_cast<std::uint32_t>(index), index;
+      if (grains[found].position == place) return found;
+    }
+  }
+
+ private:
+  static constexpr std::uint32_t kFree = ~0u;
+  static std::size_t hash(const Vec3d& place) {
+    std::uint64_t hash = 0;
+    for (const double p : {place.x, place.y, place.z}) {  // 0.0 added: -0 is the same place as 0
+      hash = (hash ^ std::bit_cast<std::uint64_t>(p + 0.0)) * 0x9E3779B97F4A7C15;
+      hash ^= hash >> 32;
+    }
+    return hash;
+  }
+  std::vector<std::uint32_t> slots_;  // indices of grains
+};
 
 class ListReader {
  public:
@@ -64,6 +94,11 @@ class ListReader {
       : place_(place), key_(key), problems_(problems) {}
 
   std::vector<PlacedGrain> read(std::string_view text) {
+    const auto rows = 1 + static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
+    grains_.reserve(rows);
+    line_of_.reserve(rows);
+    places_ = PlaceTable(rows);
+    std::vector<Cell> cells;
     for (std::string_view rest = text; !rest.empty();) {
       const std::size_t end = std::min(rest.find('\n'), rest.size());
       std::string_view line = rest.substr(0, end);
@@ -71,7 +106,7 @@ class ListReader {
       ++line_;
       if (line_ == 1 && line.starts_with("\xEF\xBB\xBF")) line.remove_prefix(3);  // a byte-order mark
       if (trim(line).empty() || trim(line).front() == '#') continue;
-      const auto cells = split_cells(line);
+      split_cells(line, cells);
       if (units_.empty()) {
         if (!read_header(cells)) return {};
       } else {
@@ -155,13 +190,13 @@ class ListReader {
                     "allowed: greater than 0", "correct or remove the row");
       component(grain, columns_[i]) = *value;
     }
-    const std::array place{grain.position.x, grain.position.y, grain.position.z};
-    const auto [first, fresh] = places_.try_emplace(place, line_);
-    if (!fresh)
+    const std::size_t there = places_.try_add(grains_, grain.position, grains_.size());
+    if (there != grains_.size())
       return fail(cells.front(),
-                  fmt::format("the grain has the very place of the one in line {}", first->second),
+                  fmt::format("the grain has the very place of the one in line {}", line_of_[there]),
                   "two centres cannot coincide: there would be no direction to push them apart",
                   "move or remove one");
+    line_of_.push_back(line_);
     grains_.push_back(grain);
   }
 
@@ -171,7 +206,8 @@ class ListReader {
   int line_ = 0, errors_ = 0;
   std::vector<Unit> units_;
   std::vector<std::size_t> columns_;
-  std::map<std::array<double, 3>, int> places_;
+  PlaceTable places_{0};
+  std::vector<int> line_of_;  // by grain
   std::vector<PlacedGrain> grains_;
 };
 

@@ -186,6 +186,14 @@ std::size_t number_length(std::string_view text) {
 /// number * 10^power, rounded once: the exponent is changed in the text, before the conversion to binary.
 std::optional<double> scaled_number(std::string_view number, int power) {
   if (number.starts_with('+')) number.remove_prefix(1);
+  double value = 0;
+  const auto read = [&value](const char* begin, const char* end) {
+    return std::from_chars(begin, end, value).ec == std::errc{} && std::isfinite(value);
+  };
+  if (power == 0) {
+    if (!read(number.data(), number.data() + number.size())) return std::nullopt;
+    return value;
+  }
   const std::size_t e = number.find_first_of("eE");
   long long exponent = power;
   if (e != std::string_view::npos) {
@@ -196,10 +204,11 @@ std::optional<double> scaled_number(std::string_view number, int power) {
     if (result.ec != std::errc{} || std::abs(written) > 100000) return std::nullopt;
     exponent += written;
   }
-  const std::string text = fmt::format("{}e{}", number.substr(0, e), exponent);
-  double value = 0;
-  const auto result = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (result.ec != std::errc{} || !std::isfinite(value)) return std::nullopt;
+  fmt::memory_buffer text;  // lists have millions of numbers: nothing is allocated for one
+  text.append(number.substr(0, e));
+  text.push_back('e');
+  text.append(fmt::format_int(exponent));
+  if (!read(text.begin(), text.end())) return std::nullopt;
   return value;
 }
 

@@ -1,8 +1,10 @@
 #include "coupling/scene/write_scene.h"
 
+#include <fmt/compile.h>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <iterator>
 #include <vector>
 
 #include "coupling/scene/format_quantity.h"
@@ -165,10 +167,14 @@ void write_list(Writer& out, const ListInsertion& list) {
   out.text("method", "list");
   std::string csv =
       "'''\nx [m],y [m],z [m],diameter [m],vx [m/s],vy [m/s],vz [m/s],wx [rad/s],wy [rad/s],wz [rad/s]\n";
+  constexpr std::size_t kUsualRow = 96;  // characters
+  csv.reserve(csv.size() + kUsualRow * list.grains.size());
   for (const PlacedGrain& g : list.grains)
-    csv += fmt::format("{},{},{},{},{},{},{},{},{},{}\n", g.position.x, g.position.y, g.position.z,
-                       g.diameter, g.velocity.x, g.velocity.y, g.velocity.z, g.spin.x, g.spin.y, g.spin.z);
-  out.raw("csv", csv + "'''");
+    fmt::format_to(std::back_inserter(csv), FMT_COMPILE("{},{},{},{},{},{},{},{},{},{}\n"), g.position.x,
+                   g.position.y, g.position.z, g.diameter, g.velocity.x, g.velocity.y, g.velocity.z, g.spin.x,
+                   g.spin.y, g.spin.z);
+  csv += "'''";
+  out.raw("csv", csv);
 }
 
 void write_particles(Writer& out, const Particles& group) {

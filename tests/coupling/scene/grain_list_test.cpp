@@ -104,6 +104,39 @@ TEST_F(GrainList, AWrongColumnDoesNotFloodTheScreen) {
   }
 }
 
+TEST_F(GrainList, OneGrainAtTheVeryPlaceOfAnotherIsFoundAmongThousands) {
+  std::string csv = "x [um], y [um], z [um], diameter [um]\n";
+  for (int i = 0; i < 20; ++i) {  // a lattice, so that places share coordinates and bits of them
+    for (int j = 0; j < 20; ++j) {
+      for (int k = 0; k < 20; ++k) {
+        csv += std::to_string(i - 10) + "," + std::to_string(2 * j) + "," + std::to_string(64 * k - 640) +
+               ",1\n";
+      }
+    }
+  }
+  const auto grains = read(csv);
+  ASSERT_EQ(grains.size(), 8000u);
+  EXPECT_EQ(grains.back().position, (Vec3d{9e-6, 38e-6, 576e-6}));
+  // Line 2 + (10 * 20 + 0) * 20 + 10, at the origin; minus nought is nought, and the last line may lack its
+  // end.
+  EXPECT_NE(error_of(csv + "-0, 0.0, -0e0, 3")
+                .find(":8002:1: the grain has the very place of the one in line 4012"),
+            std::string::npos)
+      << error_of(csv + "-0, 0.0, -0e0, 3");
+}
+
+TEST_F(GrainList, NumbersAreRoundedOnceWhateverTheUnit) {
+  // What a compiler makes of the same decimals; +7.0e-05 and 0.00007 are one number.
+  const auto grains = read(
+      "x [m],y [um],z [mm],diameter [m]\n6.531589171488031e-05,65.31589171488031,"
+      "0.06531589171488031,+7.0e-05\n1e-7,0.1,1E-4,0.00007\n");
+  ASSERT_EQ(grains.size(), 2u);
+  EXPECT_EQ(grains[0].position, (Vec3d{6.531589171488031e-05, 6.531589171488031e-05, 6.531589171488031e-05}));
+  EXPECT_EQ(grains[1].position, (Vec3d{1e-7, 1e-7, 1e-7}));
+  EXPECT_EQ(grains[0].diameter, 7e-5);
+  EXPECT_EQ(grains[1].diameter, 7e-5);
+}
+
 TEST_F(GrainList, AMissingFileIsNamedAtItsKey) {
   std::filesystem::remove(folder_ / "grains.csv");
   try {
