@@ -47,6 +47,34 @@ TEST(Rain, PlacesGrainsInsideItsBoxWithoutOverlap) {
   }
 }
 
+TEST(Rain, MakesRoomForGrainsThatReachInFromOutside) {
+  // The box holds one place for a grain of 10 um; a large grain stands before one of its faces, its centre
+  // outside.
+  for (const double gap : {-1e-6, 1e-6}) {
+    for (int axis = 0; axis < 3; ++axis) {
+      Model m = testing::plain_model(testing::powder(), {0.35, 0.3, 0.005, 0}, testing::with_rolling());
+      Simulation sim(m, 2e-8);
+      Rain rain;
+      rain.radii = {10e-6};
+      rain.box = {{1e-4, 1e-4, 1e-4}, {1.2e-4 + 1e-12, 1.2e-4 + 1e-12, 1.2e-4 + 1e-12}};
+      Vec3d before{1.1e-4, 1.1e-4, 1.1e-4};
+      before[axis] += 10e-6 + 30e-6 + gap;
+      sim.add_grains(std::vector<NewGrain>{{before, 30e-6}});
+      EXPECT_EQ(pour(sim, rain), gap > 0 ? 1u : 0u) << axis;
+    }
+  }
+}
+
+TEST(Rain, FallsIntoABoxOfAnyWidth) {  // 1 m, 10^15 cells of the largest grain's size
+  Model m = testing::plain_model(testing::powder(), {0.35, 0.3, 0.005, 0}, testing::with_rolling());
+  m.domain = {{0, 0, 0}, {1, 1, 1}};
+  Simulation sim(m, 2e-8);
+  Rain rain = rain_of(2000, 6);
+  rain.box = m.domain;
+  EXPECT_EQ(pour(sim, rain), 2000u);
+  EXPECT_EQ(sim.grains(), 2000u);
+}
+
 TEST(Rain, KeepsTheOrderOfSizes) {
   Simulation sim = empty_box();
   Rain rain = rain_of(300, 2);
