@@ -49,7 +49,9 @@ class Writer {
   void blank() { text_ += '\n'; }
   void header(std::string_view name) { text_ += fmt::format("\n[{}]\n", name); }
   void element(std::string_view name) { text_ += fmt::format("\n[[{}]]\n", name); }
-  void raw(std::string_view key, std::string_view value) { text_ += fmt::format("{} = {}\n", key, value); }
+  void raw(std::string_view key, std::string_view value) {
+    text_.append(key).append(" = ").append(value).append("\n");  // a list may have a hundred megabytes
+  }
   void text(std::string_view key, std::string_view value) { raw(key, quoted(value)); }
   void flag(std::string_view key, bool value) { raw(key, value ? "true" : "false"); }
   void quantity(std::string_view key, double value, Dimension dimension) {
