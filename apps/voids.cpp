@@ -106,6 +106,10 @@ void print_summary(const Json& s) {
                s["layer_mean"].get<double>(), s["layer_sd"].is_null() ? NAN : s["layer_sd"].get<double>());
   }
   for (const auto& line : s["lines"]) {
+    if (!line.contains("void_fraction_mean")) {
+      fmt::print("  line {:<12} lies in walls\n", line["name"].get<std::string>());
+      continue;
+    }
     fmt::print("  line {:<12} void fraction mean {:.6g}, least {:.6g}\n", line["name"].get<std::string>(),
                line["void_fraction_mean"].get<double>(), line["void_fraction_min"].get<double>());
   }

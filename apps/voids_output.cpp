@@ -44,7 +44,7 @@ FrameOutput write_frame(const FrameTask& task, io::ParticleFrame& frame, FramePl
   request.version = kVersion;
   const auto begin = std::chrono::steady_clock::now();
   if (request.computed.quantities.coordination && frame.coordination.empty())
-    frame.coordination = stream::touching_grains(frame, request.computed);
+    frame.coordination = stream::touching_grains(frame, plan.solids, request.computed);
   auto view = io::view_of(frame);
   if (!plan.classes.of.empty()) view.group = plan.classes.of.data();
   const voxel::Field field = voxel::compute_field(view, plan.solids, request.computed);

@@ -266,6 +266,22 @@ TriangleMesh closed_mesh(std::vector<Triangle> triangles) {
   return mesh;
 }
 
+void triangles_over(const TriangleMesh& mesh, double x0, double x1, double y0, double y1,
+                    std::vector<std::uint32_t>& numbers) {
+  const ShadowGrid& grid = mesh.shadows;
+  const Rectangles r = under(grid, x0, x1, y0, y1);
+  numbers.clear();
+  for (std::int64_t j = r.j0; j <= r.j1; ++j)
+    for (std::int64_t i = r.i0; i <= r.i1; ++i) {
+      const auto rectangle = static_cast<std::size_t>(i + grid.nx * j);
+      numbers.insert(numbers.end(),
+                     grid.triangles.begin() + static_cast<std::ptrdiff_t>(grid.first[rectangle]),
+                     grid.triangles.begin() + static_cast<std::ptrdiff_t>(grid.first[rectangle + 1]));
+    }
+  std::sort(numbers.begin(), numbers.end());
+  numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
+}
+
 void add_mesh_volumes(const MeshSolid& solid, const Vec3d& lo, const Vec3d& h,
                       const std::array<std::int64_t, 3>& n, double* volumes) {
   const TriangleMesh& mesh = *solid.mesh;
@@ -275,18 +291,8 @@ void add_mesh_volumes(const MeshSolid& solid, const Vec3d& lo, const Vec3d& h,
     size[axis] = static_cast<double>(n[axis]) * h[axis];
     if (mesh.bounds.hi[axis] + shift[axis] <= 0 || mesh.bounds.lo[axis] + shift[axis] >= size[axis]) return;
   }
-  const ShadowGrid& grid = mesh.shadows;
-  const Rectangles r = under(grid, -shift.x, size.x - shift.x, -shift.y, size.y - shift.y);
   thread_local std::vector<std::uint32_t> near;
-  near.clear();
-  for (std::int64_t j = r.j0; j <= r.j1; ++j)
-    for (std::int64_t i = r.i0; i <= r.i1; ++i) {
-      const auto rectangle = static_cast<std::size_t>(i + grid.nx * j);
-      near.insert(near.end(), grid.triangles.begin() + static_cast<std::ptrdiff_t>(grid.first[rectangle]),
-                  grid.triangles.begin() + static_cast<std::ptrdiff_t>(grid.first[rectangle + 1]));
-    }
-  std::sort(near.begin(), near.end());
-  near.erase(std::unique(near.begin(), near.end()), near.end());
+  triangles_over(mesh, -shift.x, size.x - shift.x, -shift.y, size.y - shift.y, near);
   for (const std::uint32_t t : near) {
     Triangle triangle = mesh.triangles[t];
     for (Vec3d& p : triangle) p += shift;

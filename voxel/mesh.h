@@ -52,6 +52,11 @@ struct MeshSolid {
   Box bounds() const { return {mesh->bounds.lo + at, mesh->bounds.hi + at}; }
 };
 
+/// The triangles (by number, ascending) whose shadows may reach into the rectangle of the xy plane [m, as the
+/// mesh's corners are].
+void triangles_over(const TriangleMesh& mesh, double x0, double x1, double y0, double y1,
+                    std::vector<std::uint32_t>& numbers);
+
 /// Adds the volumes [m^3] of the solid in n[0] x n[1] x n[2] cells of edges `h` [m] from `lo` [m] on, last
 /// axis fastest. Where the surface runs through itself, places count as often as it winds around them.
 void add_mesh_volumes(const MeshSolid& solid, const Vec3d& lo, const Vec3d& h,

@@ -16,6 +16,8 @@ class Reader {
         out_(out),
         void_(field.void_fraction->getConstAccessor()),
         solid_(field.solid_fraction->getConstAccessor()),
+        available_(
+            (field.available_fraction ? field.available_fraction : field.solid_fraction)->getConstAccessor()),
         mass_((field.mass_density ? field.mass_density : field.solid_fraction)->getConstAccessor()),
         averaged_((field.void_fraction_averaged ? field.void_fraction_averaged : field.void_fraction)
                       ->getConstAccessor()) {
@@ -31,6 +33,8 @@ class Reader {
     out_.center.push_back(field_.lattice.cell_center(cell[0], cell[1], cell[2]));
     out_.void_fraction.push_back(static_cast<double>(void_.getValue(at)));
     out_.solid_fraction.push_back(static_cast<double>(solid_.getValue(at)));
+    if (field_.available_fraction)
+      out_.available_fraction.push_back(static_cast<double>(available_.getValue(at)));
     if (field_.mass_density) out_.mass_density.push_back(static_cast<double>(mass_.getValue(at)));
     if (field_.void_fraction_averaged)
       out_.void_fraction_averaged.push_back(static_cast<double>(averaged_.getValue(at)));
@@ -49,7 +53,7 @@ class Reader {
 
   const Field& field_;
   Samples& out_;
-  openvdb::FloatGrid::ConstAccessor void_, solid_, mass_, averaged_;
+  openvdb::FloatGrid::ConstAccessor void_, solid_, available_, mass_, averaged_;
   std::vector<openvdb::FloatGrid::ConstAccessor> quantities_, quantities_averaged_;
 };
 
@@ -71,6 +75,12 @@ Samples sample_slice(const Field& field, int axis, double at) {
       reader.read(cell);
     }
   return samples;
+}
+
+std::vector<double> outside_walls(const Samples& samples, std::vector<double> values) {
+  for (std::size_t i = 0; i < samples.available_fraction.size() && i < values.size(); ++i)
+    if (samples.available_fraction[i] == 0) values[i] = std::numeric_limits<double>::quiet_NaN();
+  return values;
 }
 
 Samples sample_line(const Field& field, int axis, const Vec3d& at) {

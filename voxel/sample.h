@@ -21,6 +21,7 @@ struct Samples {
   std::int64_t rows = 0, columns = 0;
   std::vector<Vec3d> center;  // [m], rows * columns
   std::vector<double> void_fraction, solid_fraction;
+  std::vector<double> available_fraction;      // what walls leave of each voxel; empty without walls
   std::vector<double> mass_density;            // [kg/m^3], empty where unknown
   std::vector<double> void_fraction_averaged;  // empty unless the field has it
   std::vector<SampledQuantity> quantities;     // in the field's order
@@ -33,5 +34,8 @@ Samples sample_slice(const Field& field, int axis, double at);
 /// The row of voxels along `axis` through `at` [m] (its component on `axis` is ignored). Throws InputError as
 /// above.
 Samples sample_line(const Field& field, int axis, const Vec3d& at);
+
+/// `values` of the samples with NaN where walls leave nothing of the voxel: there is neither powder nor void.
+std::vector<double> outside_walls(const Samples& samples, std::vector<double> values);
 
 }  // namespace interstice::voxel

@@ -26,10 +26,12 @@ double relative_error(double value, double truth) {
 
 Json box_of(const Box& b) { return Json::array({b.lo.x, b.hi.x, b.lo.y, b.hi.y, b.lo.z, b.hi.z}); }
 
-// Void fraction along a line: the numbers one compares runs by.
+// Void fraction along a line, outside walls: the numbers one compares runs by.
 Json line_summary(const std::string& name, const voxel::Samples& line) {
   Json json{{"name", name}};
-  const auto add = [&](const char* key, const std::vector<double>& v) {
+  const auto add = [&](const char* key, const std::vector<double>& values) {
+    std::vector<double> v = voxel::outside_walls(line, values);
+    std::erase_if(v, [](double value) { return std::isnan(value); });
     if (v.empty()) return;
     json[std::string(key) + "_min"] = *std::min_element(v.begin(), v.end());
     json[std::string(key) + "_max"] = *std::max_element(v.begin(), v.end());

@@ -21,12 +21,30 @@ constexpr double kBytesPerQuantityCell = 5, kBytesPerAveragedQuantityCell = 20,
                  kBytesPerQuantityOfASphere = 8;
 constexpr double kBytesPerCopiedGrain = 150;
 
-io::FieldFilesRequest request_of(const scene::Field& field) {
+/// How many classes a run's grains can be in.
+std::size_t classes_of(const scene::Scene& scene, const scene::FieldClasses& classes) {
+  using By = scene::FieldClasses::By;
+  switch (classes.by) {
+    case By::none:
+      return 0;
+    case By::size:
+      return classes.edges.size() + 1;
+    case By::material:
+      return scene.materials.size();
+    case By::layer:
+      return scene.particles.size();
+  }
+  return 0;
+}
+
+io::FieldFilesRequest request_of(const scene::Scene& scene, const scene::Field& field) {
   io::FieldFilesRequest request;
   request.computed.lattice = voxel::cubic_lattice(field.box, field.voxel);
   request.computed.average_length = field.average;
   request.computed.average_window = field.average_window;
-  io::apply(field.recipe, {}, request.computed);
+  io::GrainClasses classes;
+  classes.names.resize(classes_of(scene, field.recipe.classes));
+  io::apply(field.recipe, classes, request.computed);
   return request;
 }
 
@@ -42,8 +60,8 @@ double grains_of(const scene::Scene& scene) {
   return grains;
 }
 
-double memory_of(const scene::Field& field, double grains) {
-  const io::FieldFilesRequest request = request_of(field);
+double memory_of(const scene::Scene& scene, const scene::Field& field, double grains) {
+  const io::FieldFilesRequest request = request_of(scene, field);
   return field_memory(request, cells_of(request.computed.lattice), grains);
 }
 
@@ -68,7 +86,7 @@ double field_memory(const io::FieldFilesRequest& request, double cells, double s
   double bytes = kBytesOnce + kBytesPerCell * cells + kBytesPerSphere * spheres;
   if (averaged) bytes += kBytesPerAveragedCell * all;
   if (averaged && request.computed.average_window == WindowShape::sphere) bytes += 8 * all;  // sums aside
-  const auto quantities = static_cast<double>(request.computed.quantities.grids());
+  const auto quantities = static_cast<double>(request.computed.quantities.grids() + 1);  // and mass density
   bytes += quantities * (kBytesPerQuantityCell * cells + kBytesPerQuantityOfASphere * spheres);
   if (averaged) bytes += quantities * kBytesPerAveragedQuantityCell * all;
   if (request.vti && all <= static_cast<double>(request.vti_most_cells))
@@ -79,7 +97,7 @@ double field_memory(const io::FieldFilesRequest& request, double cells, double s
 double fields_memory(const scene::Scene& scene) {
   const double grains = grains_of(scene);
   double largest = 0;
-  for (const scene::Field& field : scene.fields) largest = std::max(largest, memory_of(field, grains));
+  for (const scene::Field& field : scene.fields) largest = std::max(largest, memory_of(scene, field, grains));
   return largest + 2 * kBytesPerCopiedGrain * grains;
 }
 
@@ -87,9 +105,10 @@ void check_fields_memory(const scene::Scene& scene, double available) {
   const double needed = fields_memory(scene);
   if (scene.fields.empty() || needed <= available) return;
   const double grains = grains_of(scene);
-  const auto& worst = *std::max_element(
-      scene.fields.begin(), scene.fields.end(),
-      [&](const auto& a, const auto& b) { return memory_of(a, grains) < memory_of(b, grains); });
+  const auto& worst =
+      *std::max_element(scene.fields.begin(), scene.fields.end(), [&](const auto& a, const auto& b) {
+        return memory_of(scene, a, grains) < memory_of(scene, b, grains);
+      });
   const voxel::Lattice lattice = voxel::cubic_lattice(worst.box, worst.voxel);
   throw InputError(fmt::format(
       "fields: `{}` ({} x {} x {} voxels) would need up to {:.3g} GB; this machine has {:.3g} GB free; use a "

@@ -112,6 +112,13 @@ std::string averaged_name(const scene::Field& field) {
                          : fmt::format(" ({})", name_of(field.average_window)));
 }
 
+/// "along y at x = 4.5 mm, z = 0.035 mm".
+std::string place_of(const scene::Line& line) {
+  const int a = line.axis == 0 ? 1 : 0, b = line.axis == 2 ? 1 : 2;
+  return fmt::format("along {} at {} = {:.4g} mm, {} = {:.4g} mm", "xyz"[line.axis], "xyz"[a],
+                     line.at[a] * kMilli, "xyz"[b], line.at[b] * kMilli);
+}
+
 void draw_quantities(const scene::Field& field, const std::filesystem::path& folder,
                      const io::FieldFilesResult& files, const io::ParticleFrame& frame,
                      const std::string& phase) {
@@ -193,16 +200,16 @@ void draw_field(const scene::Field& field, const std::filesystem::path& folder,
     std::vector<double> at;
     for (const Vec3d& c : line.center) at.push_back(c[axis] * kMilli);
     CurveFigure figure;
-    if (l == 0)
-      figure.title = fmt::format("Void fraction on lines at the end of phase '{}'", phase);
-    else
-      figure.title = io::name_of(field.lines[l]);
+    figure.title = place_of(field.lines[l]);
+    if (l == 0) figure.title = fmt::format("Void fraction at the end of phase '{}', {}", phase, figure.title);
     figure.x_label = fmt::format("{} [mm]", "xyz"[axis]);
     figure.y_label = "void fraction";
     figure.y_range = {{0, 1.02}};
-    figure.curves.push_back({"per voxel (" + length(field.voxel) + ")", at, line.void_fraction});
+    figure.curves.push_back(
+        {"per voxel (" + length(field.voxel) + ")", at, voxel::outside_walls(line, line.void_fraction)});
     if (!line.void_fraction_averaged.empty()) {
-      figure.curves.push_back({averaged_name(field), at, line.void_fraction_averaged});
+      figure.curves.push_back(
+          {averaged_name(field), at, voxel::outside_walls(line, line.void_fraction_averaged)});
     }
     panels.push_back(std::move(figure));
   }

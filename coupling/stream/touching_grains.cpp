@@ -6,7 +6,7 @@
 
 #include "base/error.h"
 #include "dem/neighbours.h"
-#include "dem/wall_distance.h"
+#include "voxel/touch.h"
 
 namespace interstice::stream {
 
@@ -23,7 +23,8 @@ void check_touching(const io::ParticleFrame& frame, const voxel::FieldRequest& r
   }
 }
 
-std::vector<double> touching_grains(const io::ParticleFrame& frame, const voxel::FieldRequest& request) {
+std::vector<double> touching_grains(const io::ParticleFrame& frame, const voxel::Solids& solids,
+                                    const voxel::FieldRequest& request) {
   std::vector<double> touched(frame.size(), 0.0);
   std::vector<dem::GrainSite> sites(frame.size());
   double largest = 0;
@@ -40,10 +41,10 @@ std::vector<double> touching_grains(const io::ParticleFrame& frame, const voxel:
     if (distance > (a.radius + b.radius) * (1 + kTouchingGap)) continue;
     ++touched[pair.a], ++touched[pair.b];
   }
-  for (const io::WallPose& wall : frame.walls)
+  voxel::for_each_solid(solids, [&](const auto& solid) {
     for (std::size_t i = 0; i < sites.size(); ++i)
-      touched[i] +=
-          dem::wall_distance(wall.shape, sites[i].position()).distance <= sites[i].radius * (1 + kTouchingGap);
+      touched[i] += voxel::within_reach(solid, sites[i].position(), sites[i].radius * (1 + kTouchingGap));
+  });
   return touched;
 }
 

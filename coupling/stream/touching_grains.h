@@ -15,8 +15,10 @@ inline constexpr double kTouchingGap = 1e-6;
 /// Throws InputError where the box repeats in less than two grains: contacts cannot be told apart there.
 void check_touching(const io::ParticleFrame& frame, const voxel::FieldRequest& request);
 
-/// Grains and walls of the frame that each grain touches, across the faces along which `request` repeats its
-/// box (grains lie in it along those). Of a frame that check_touching let pass.
-std::vector<double> touching_grains(const io::ParticleFrame& frame, const voxel::FieldRequest& request);
+/// How many grains of the frame and how many solids (the frame's walls among them) each grain touches, across
+/// the faces along which `request` repeats its box (grains lie in it along those). Of a frame that
+/// check_touching let pass.
+std::vector<double> touching_grains(const io::ParticleFrame& frame, const voxel::Solids& solids,
+                                    const voxel::FieldRequest& request);
 
 }  // namespace interstice::stream

@@ -15,6 +15,7 @@
 #include <thread>
 
 #include "coupling/io/trajectory.h"
+#include "coupling/scene/read_scene.h"
 #include "tests/apps/command_test.h"
 
 namespace interstice::testing {
@@ -231,6 +232,41 @@ TEST_F(Run, ReportsWhatItDid) {
   EXPECT_EQ(written.at("exit_reason"), "finished");
   EXPECT_NEAR(written.at("time_step_collision_fraction").get<double>(), 0.04, 1e-12);
   EXPECT_EQ(slurp(at("run") + "/series.csv").substr(0, 17), "time_s,particles,");
+}
+
+// Figs. 10 to 13 of the compactors' paper: void fraction on three sections, and along y at 35 um in each.
+TEST_F(Run, DrawsThePapersSectionsAndLinesAtTheEndOfEachPhase) {
+  for (const char* name : {"static-walls", "compactors", "quick-static-walls", "quick-compactors"}) {
+    const scene::Scene scene =
+        scene::read_scene(INTERSTICE_SOURCE_DIR "/data/scenes/" + std::string(name) + ".toml");
+    ASSERT_EQ(scene.fields.size(), 1u) << name;
+    const scene::Field& field = scene.fields[0];
+    ASSERT_EQ(field.slices.size(), 3u) << name;
+    ASSERT_EQ(field.lines.size(), 3u) << name;
+    const double length = field.box.hi.x - field.box.lo.x;
+    for (std::size_t i = 0; i < 3; ++i) {  // equidistant
+      EXPECT_EQ(field.slices[i].axis, 0) << name;
+      EXPECT_NEAR(field.slices[i].at, 0.25 * static_cast<double>(i + 1) * length, 1e-12) << name;
+      EXPECT_EQ(field.lines[i].axis, 1) << name;
+      EXPECT_EQ(field.lines[i].at.x, field.slices[i].at) << name;
+      EXPECT_NEAR(field.lines[i].at.z, 35e-6, 1e-15) << name;
+    }
+  }
+  if (std::system("command -v gnuplot > /dev/null") != 0) GTEST_SKIP() << "gnuplot is missing";
+  ASSERT_EQ(call("run " INTERSTICE_SOURCE_DIR "/data/scenes/quick-compactors.toml -o " + at("run") +
+                 " --quiet --set particles.feed.count=40 --set 'phases.pour.until.at_most=\"4 ms\"'"
+                 " --set 'phases.spread.duration=\"1 ms\"' --set 'phases.compact.duration=\"1 ms\"'"
+                 " --set 'output.series=\"0 s\"'"),
+            0)
+      << err_;
+  for (const std::string phase : {"spread", "compact"})
+    for (const auto& [figure, third] :
+         {std::pair{"layer-slices-" + phase, "X3: x = 1.5 mm"},
+          std::pair{"layer-slices-" + phase + "-averaged", "X3: x = 1.5 mm"},
+          std::pair{"layer-lines-" + phase, "along y at x = 1.5 mm, z = 0.035 mm"}}) {
+      EXPECT_TRUE(fs::exists(at("run") + "/figures/" + figure + ".png")) << figure;
+      EXPECT_NE(slurp(at("run") + "/figures/" + figure + ".gp").find(third), std::string::npos) << figure;
+    }
 }
 
 }  // namespace

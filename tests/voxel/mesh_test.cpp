@@ -8,8 +8,10 @@
 #include <numbers>
 
 #include "base/error.h"
+#include "base/random.h"
 #include "tests/voxel/support.h"
 #include "voxel/solids.h"
+#include "voxel/touch.h"
 #include "voxel/walls.h"
 
 namespace interstice::voxel::test {
@@ -87,6 +89,41 @@ std::vector<Triangle> ball_triangles(double radius, int times) {
 
 MeshSolid solid_of(std::vector<Triangle> triangles, const Vec3d& at = {0, 0, 0}) {
   return {std::make_shared<TriangleMesh>(closed_mesh(std::move(triangles))), at};
+}
+
+/// Balls around points in and about the solids, of radii so that some touch and some do not.
+TEST(WithinReach, OfTrianglesIsThatOfTheSameSolid) {
+  const Box box{{-1, -2, -0.5}, {1.5, 1, 2}};
+  const Vec3d at{0.3, -0.7, 0.1};
+  const MeshSolid mesh = solid_of(box_triangles(box), at);
+  const Box moved{box.lo + at, box.hi + at};
+  int touching = 0;
+  for (std::uint64_t s = 0; s < 3000; ++s) {
+    Random random(17, s);
+    const Vec3d p{random.uniform(-4, 4), random.uniform(-4, 4), random.uniform(-4, 4)};
+    const double reach = random.uniform(1e-3, 1.5);
+    const bool touches = within_reach(moved, p, reach);
+    EXPECT_EQ(within_reach(mesh, p, reach), touches) << p.x << ' ' << p.y << ' ' << p.z << ' ' << reach;
+    touching += touches;
+  }
+  EXPECT_GT(touching, 300);
+  EXPECT_LT(touching, 2700);
+}
+
+TEST(WithinReach, EndsAtTheReach) {
+  const double e = 1e-9;
+  const auto ends = [&](const auto& solid, const Vec3d& p, double reach) {
+    EXPECT_TRUE(within_reach(solid, p, reach * (1 + e)));
+    EXPECT_FALSE(within_reach(solid, p, reach * (1 - e)));
+  };
+  ends(Plane{{0, 0, 1}, {0, 0, 1}}, {5, 5, 3}, 2);
+  ends(Ball{{1, 0, 0}, 2}, {1, 4, 3}, 3);
+  ends(Box{{0, 0, 0}, {1, 1, 1}}, {4, 5, 0.5}, 5);                             // an edge
+  ends(Cylinder{{0, 0, 0}, {0, 0, 2}, 1}, {4, 0, 6}, 5);                       // its rim
+  ends(solid_of(box_triangles(Box{{0, 0, 0}, {1, 1, 1}})), {3, 3, 2}, 3);      // a corner
+  ends(solid_of(box_triangles(Box{{0, 0, 0}, {1, 1, 1}})), {0.4, 0.3, 3}, 2);  // inside a face
+  for (const double reach : {0.01, 10.0})  // wholly inside, the surface in reach or not
+    EXPECT_TRUE(within_reach(solid_of(box_triangles(Box{{0, 0, 0}, {1, 1, 1}})), {0.4, 0.3, 0.5}, reach));
 }
 
 /// Every cell's share, by blocks as fields take them.

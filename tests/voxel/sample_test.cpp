@@ -5,6 +5,8 @@
 #include <openvdb/io/Stream.h>
 #include <openvdb/openvdb.h>
 
+#include <cmath>
+
 #include "base/error.h"
 #include "tests/voxel/support.h"
 
@@ -168,6 +170,21 @@ TEST(SampleLine, IsARowOfTheSlice) {
   }
   EXPECT_NO_THROW(sample_line(field, 1, {100e-6, 1e9, 60e-6}));  // its own component does not matter
   EXPECT_THROW(sample_line(field, 1, {1, 77e-6, 60e-6}), InputError);
+}
+
+TEST(SampleLine, HasGapsWhereWallsLeaveNothing) {
+  FieldRequest request;
+  request.lattice = cubic_lattice({{0, 0, 0}, {100e-6, 20e-6, 20e-6}}, 10e-6);
+  const Solids wall{{Box{{35e-6, -1, -1}, {60e-6, 1, 1}}}};  // half of voxel 3, all of 4 and 5
+  const Samples line = sample_line(compute_field({}, wall, request), 0, {0, 5e-6, 5e-6});
+  const std::vector<double> left = outside_walls(line, line.void_fraction);
+  for (std::size_t i = 0; i < 10; ++i) {
+    EXPECT_EQ(std::isnan(left[i]), i == 4 || i == 5) << i;
+    if (std::isnan(left[i])) continue;
+    EXPECT_FLOAT_EQ(static_cast<float>(left[i]), i == 3 ? 0.5f : 1.0f) << i;
+  }
+  const Samples open = sample_line(compute_field({}, {}, request), 0, {0, 5e-6, 5e-6});
+  EXPECT_EQ(outside_walls(open, open.void_fraction), open.void_fraction);
 }
 
 TEST(SampleLine, WithoutDensityOrAverages) {

@@ -49,37 +49,76 @@ double status(const char* key) {
   return NAN;
 }
 
-/// Highest memory of this process while a field is computed, above that before it [bytes].
+/// Highest memory of this process while a field over a floor is computed, above that before it [bytes].
 double peak_of(const voxel::SpheresView& spheres, const voxel::FieldRequest& request) {
   std::ofstream("/proc/self/clear_refs") << "5";
   const double before = status("VmRSS:");
-  const voxel::Field field = voxel::compute_field(spheres, {}, request);
+  const voxel::Solids floor{{Plane{{0, 0, 0.02e-3}, {0, 0, 1}}}};
+  const voxel::Field field = voxel::compute_field(spheres, floor, request);
   return status("VmHWM:") - before;
+}
+
+struct Asked {
+  double voxel, average;
+  WindowShape window = WindowShape::box;
+  voxel::QuantityRequest quantities = {};
+};
+
+std::vector<Asked> asked_of_fields() {
+  const voxel::QuantityRequest all{true, true, true, true, true, true, {"one", "two"}};
+  std::vector<Asked> asked;
+  for (const double voxel : {100e-6, 17.3e-6, 8e-6})
+    for (const double average : {0., 100e-6}) asked.push_back({voxel, average});
+  for (const auto window : {WindowShape::sphere, WindowShape::gaussian})
+    asked.push_back({10e-6, 40e-6, window});
+  for (const double average : {0., 60e-6}) asked.push_back({15e-6, average, WindowShape::box, all});
+  return asked;
 }
 
 TEST(FieldMemory, IsNotMoreThanSaid) {
   std::ofstream reset("/proc/self/clear_refs");
   if (!(reset << "5" << std::flush)) GTEST_SKIP() << "peaks of memory cannot be reset here";
   const std::size_t count = 60'000;
-  for (const double voxel : {100e-6, 17.3e-6, 8e-6})
-    for (const double average : {0., 100e-6}) {
-      std::vector<double> x, y, z, r;
-      for (std::size_t s = 0; s < count; ++s) {
-        Random random(3, s);
-        x.push_back(random.uniform(0, 4e-3));
-        y.push_back(random.uniform(0, 2e-3));
-        z.push_back(random.uniform(0, .5e-3));
-        r.push_back(random.uniform(10e-6, 25e-6));
-      }
-      io::FieldFilesRequest request;
-      request.vti = false;  // computing alone is measured
-      request.computed.lattice = voxel::cubic_lattice({{0, 0, 0}, {4e-3, 2e-3, .5e-3}}, voxel);
-      request.computed.average_length = average;
-      const double said = field_memory(request, cells_reached(r, request.computed), count);
-      const double taken =
-          peak_of({count, x.data(), y.data(), z.data(), r.data(), nullptr}, request.computed);
-      EXPECT_LE(taken, said) << voxel << " " << average;
-    }
+  std::vector<double> x, y, z, r, number(count, 1.0);
+  std::vector<std::int32_t> kind(count);
+  for (std::size_t s = 0; s < count; ++s) {
+    Random random(3, s);
+    x.push_back(random.uniform(0, 4e-3));
+    y.push_back(random.uniform(0, 2e-3));
+    z.push_back(random.uniform(0, .5e-3));
+    r.push_back(random.uniform(10e-6, 25e-6));
+    number[s] = random.uniform(1, 2);
+    kind[s] = s % 2;
+  }
+  voxel::SpheresView spheres{count, x.data(), y.data(), z.data(), r.data(), number.data()};
+  spheres.velocity.fill(number.data()), spheres.stress.fill(number.data());
+  spheres.coordination = number.data();
+  spheres.bonded = spheres.group = kind.data();
+  for (const Asked& asked : asked_of_fields()) {
+    io::FieldFilesRequest request;
+    request.vti = false;  // computing alone is measured
+    request.computed.lattice = voxel::cubic_lattice({{0, 0, 0}, {4e-3, 2e-3, .5e-3}}, asked.voxel);
+    request.computed.average_length = asked.average;
+    request.computed.average_window = asked.window;
+    request.computed.quantities = asked.quantities;
+    const double said = field_memory(request, cells_reached(r, request.computed), count);
+    const double taken = peak_of(spheres, request.computed);
+    EXPECT_LE(taken, said) << asked.voxel << " " << asked.average << " " << name_of(asked.window) << " "
+                           << asked.quantities.grids();
+    EXPECT_GT(taken, 0.05 * said) << asked.voxel << " " << asked.average;  // and not without measure
+  }
+}
+
+TEST(FieldMemory, OfARunCountsItsClasses) {
+  scene::Scene scene;
+  scene::Field field;
+  field.name = "layer";
+  field.voxel = 1e-2;
+  field.box = {{0, 0, 0}, {1, 1, 1}};
+  scene.fields = {field};
+  const double plain = fields_memory(scene);
+  scene.fields[0].recipe.classes = {scene::FieldClasses::By::size, {1e-3, 2e-3, 3e-3}};
+  EXPECT_GE(fields_memory(scene) - plain, 4 * 4 * 1e6);  // four grids of floats
 }
 
 TEST(FieldMemory, ALargeSphereIsMostlyTiles) {
