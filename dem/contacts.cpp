@@ -73,8 +73,7 @@ PairContacts::PairContacts(const KeptMemories& kept, Precision precision)
       rolling_(precision),
       forces_(precision),
       ring_forces_(precision),
-      kept_forces_(precision),
-      end_reals_(precision == Precision::mixed ? kEndReals<float> : kEndReals<double>) {}
+      kept_forces_(precision) {}
 
 /// Empty places get a copy of a listed pair of their group, so that they can be worked on like any other.
 void PairContacts::place_pairs(const std::vector<PairRef>& found, const PairOrder& order) {
@@ -119,8 +118,8 @@ void PairContacts::replace(const std::vector<PairRef>& found, const std::vector<
     }
   });
   ring_ = make_ring(sweep_, pairs_, first_end_, build_adjacency(sites));
-  ring_forces_.reset((ring_.places + kEndsAtOnce) * end_reals_);  // collecting reads on
-  kept_forces_.reset(ring_.kept * end_reals_);
+  ring_forces_.reset(ring_.places * kEndReals);
+  kept_forces_.reset(ring_.kept * kEndReals);
   forces_.reset(0);
   if (kept_.heat) heat_.assign(pairs_.size(), {});
 }
@@ -163,16 +162,16 @@ PairView PairContacts::shared_view() {
 void PairContacts::fetch_shared(std::size_t block) {
   for (std::uint32_t i = ring_.of_block[block]; i < ring_.of_block[block + 1]; ++i) {
     const SharedEnd& end = ring_.shared[i];
-    for (std::size_t n = 0; n < end_reals_; ++n)
-      ring_forces_.set(end.place * end_reals_ + n, kept_forces_[end.kept * end_reals_ + n]);
+    for (std::size_t n = 0; n < kEndReals; ++n)
+      ring_forces_.set(end.place * kEndReals + n, kept_forces_[end.kept * kEndReals + n]);
   }
 }
 
 std::size_t PairContacts::bytes() const {
-  return bytes_of(pairs_) + bytes_of(bits_) + bytes_of(ring_.first) + bytes_of(ring_.of_pair) +
-         bytes_of(ring_.shared) + sliding_.bytes() + rolling_.bytes() + forces_.bytes() +
-         ring_forces_.bytes() + kept_forces_.bytes() + bytes_of(heat_) + bytes_of(first_end_) +
-         bytes_of(pair_of_end_);
+  return bytes_of(pairs_) + bytes_of(bits_) + bytes_of(ring_.rows) + bytes_of(ring_.count) +
+         bytes_of(ring_.of_pair) + bytes_of(ring_.shared) + sliding_.bytes() + rolling_.bytes() +
+         forces_.bytes() + ring_forces_.bytes() + kept_forces_.bytes() + bytes_of(heat_) +
+         bytes_of(first_end_) + bytes_of(pair_of_end_);
 }
 
 std::size_t WallContacts::bytes() const { return bytes_of(entries) + bytes_of(first_); }

@@ -2,6 +2,7 @@
 // lists: a grain's forces are summed over its partners in the order of their ids.
 #pragma once
 
+#include <algorithm>
 #include <bit>
 #include <cstdint>
 #include <ranges>
@@ -54,9 +55,8 @@ struct GroupBits {
 };
 static_assert(kLanes == 16);
 
-/// Numbers at one end: force [N] and torque [N m]; in single precision with a zero after each.
-template <class Real>
-inline constexpr std::size_t kEndReals = sizeof(Real) == 4 ? 8 : 6;
+/// Numbers at one end: force [N] and torque [N m], with a zero after each.
+inline constexpr std::size_t kEndReals = 8;
 /// Numbers of one spring: force [N] and stiffness [N/m].
 inline constexpr std::size_t kSpringReals = 4;
 
@@ -121,9 +121,10 @@ class PairContacts {
   /// What the kernels see of pairs shared by parts, and of those inside parts.
   PairView shared_view();
   PairView view();
-  /// Where slot s collects: from ring_places()[s] on, so many as there are first_ends() up to the next slot.
-  const std::uint32_t* ring_places() const { return ring_.first.data(); }
-  const std::uint32_t* first_ends() const { return first_end_.data(); }
+  /// Where the grains of group g of slots collect.
+  const EndRows& end_rows(std::size_t g) const { return ring_.rows[g]; }
+  /// How many ends each slot has.
+  const std::uint32_t* end_counts() const { return ring_.count.data(); }
   /// Brings forces of shared pairs to where the grains of a block collect them.
   void fetch_shared(std::size_t block);
   std::size_t bytes() const;
@@ -144,7 +145,6 @@ class PairContacts {
   Reals sliding_, rolling_, forces_;
   Reals ring_forces_, kept_forces_;       // by ring_
   std::vector<std::uint32_t> first_end_;  // of each slot, and one past the last
-  std::size_t end_reals_;
   std::vector<PairHeat> heat_;
   std::vector<std::uint32_t> pair_of_end_;
 };
@@ -171,6 +171,12 @@ class WallContacts {
   std::span<const WallContact> of(std::size_t slot) const {
     if (slot + 1 >= first_.size()) return {};
     return {entries.data() + first_[slot], entries.data() + first_[slot + 1]};
+  }
+
+  /// Is no wall near any of the grains in slots [begin, end)?
+  bool none_in(std::size_t begin, std::size_t end) const {
+    const auto before = [&](std::size_t slot) { return first_[std::min(slot, first_.size() - 1)]; };
+    return before(begin) == before(end);
   }
 
   std::size_t bytes() const;

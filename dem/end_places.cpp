@@ -1,22 +1,93 @@
 #include "dem/end_places.h"
 
 #include <algorithm>
+#include <array>
+#include <functional>
 
 namespace interstice::dem {
 namespace {
 
-/// The most ends that are in use at a time in one part: from the grains of a block to the last partner of any
-/// pair that must be done before they move.
+/// A rank is collected by lanes where at least so many grains of the group have an end of it: it costs as
+/// much as some ends collected one by one.
+constexpr std::size_t kWorthARank = 6;
+
+std::uint32_t ranks_of(const std::uint32_t* count) {
+  std::array<std::uint32_t, kLanes> most_first;
+  std::copy_n(count, kLanes, most_first.begin());
+  std::sort(most_first.begin(), most_first.end(), std::greater<>());
+  return most_first[kWorthARank - 1];
+}
+
+struct Layout {
+  std::vector<std::size_t> before;  // places of all groups before each, and one past the last
+  std::size_t largest = 0;          // group
+};
+
+Layout lay_out(EndRing& ring, const std::vector<std::uint32_t>& first_end, std::size_t slots) {
+  const std::size_t groups = groups_for(slots);
+  ring.count.assign(groups * kLanes, 0);
+  for (std::size_t s = 0; s < slots; ++s) ring.count[s] = first_end[s + 1] - first_end[s];
+  ring.rows.resize(groups);
+  Layout layout;
+  layout.before.assign(1, 0);
+  for (std::size_t g = 0; g < groups; ++g) {
+    const std::uint32_t ranks = ranks_of(&ring.count[g * kLanes]);
+    std::uint32_t beyond = 0;
+    for (std::size_t s = g * kLanes; s < (g + 1) * kLanes; ++s)
+      beyond += ring.count[s] - std::min(ring.count[s], ranks);
+    ring.rows[g] = {0, ranks, beyond};
+    const std::size_t places = ranks * kLanes + beyond;
+    layout.before.push_back(layout.before.back() + places);
+    layout.largest = std::max(layout.largest, places);
+  }
+  return layout;
+}
+
+/// The most places that are in use at a time in one part: from the grains of a block to the last partner of
+/// any pair that must be done before they move.
 std::size_t widest_window(const Sweep& sweep, std::size_t part, const LargeVector<PairRef>& pairs,
-                          const std::vector<std::uint32_t>& first) {
+                          const Layout& layout) {
   std::size_t widest = 0, last_row = 0, pair = sweep.first_group[part] * kLanes;
   for (std::size_t b = sweep.parts.first_block[part]; b < sweep.parts.first_block[part + 1]; ++b) {
     for (; pair < sweep.done_before[b] * kLanes; ++pair)
       last_row = std::max<std::size_t>(last_row, std::max(pairs[pair].a, pairs[pair].b));
     last_row = std::max(last_row, sweep.parts.end_row(b) - 1);
-    widest = std::max<std::size_t>(widest, first[last_row + 1] - first[sweep.parts.begin_row(b)]);
+    widest = std::max(
+        widest, layout.before[last_row / kLanes + 1] - layout.before[sweep.parts.begin_row(b) / kLanes]);
   }
   return widest;
+}
+
+/// Places in rings, one a part; returns how many.
+std::size_t place_groups(EndRing& ring, const Sweep& sweep, const LargeVector<PairRef>& pairs,
+                         const Layout& layout) {
+  const Parts& parts = sweep.parts;
+  std::size_t base = 0;
+  for (std::size_t p = 0; p < parts.count(); ++p) {
+    const std::size_t begin = parts.begin_row(parts.first_block[p]) / kLanes,
+                      end = std::min(ring.rows.size(), parts.begin_row(parts.first_block[p + 1]) / kLanes);
+    const std::size_t size = widest_window(sweep, p, pairs, layout) + 2 * layout.largest;
+    std::size_t at = 0;
+    for (std::size_t g = begin; g < end; ++g) {
+      const std::size_t places = layout.before[g + 1] - layout.before[g];
+      if (at + places > size) at = 0;  // a group's ends lie side by side
+      ring.rows[g].first = static_cast<std::uint32_t>(base + at);
+      at += places;
+    }
+    base += size;
+  }
+  return base;
+}
+
+/// The place of a slot's end number `rank`.
+std::uint32_t place_of(const EndRing& ring, std::uint32_t slot, std::uint32_t rank) {
+  const EndRows& rows = ring.rows[slot / kLanes];
+  const std::uint32_t lane = slot % kLanes;
+  if (rank < rows.ranks) return rows.first + rank * static_cast<std::uint32_t>(kLanes) + lane;
+  std::uint32_t place = rows.rest() + rank - rows.ranks;
+  for (std::uint32_t s = slot - lane; s < slot; ++s)
+    place += ring.count[s] - std::min(ring.count[s], rows.ranks);
+  return place;
 }
 
 }  // namespace
@@ -24,25 +95,9 @@ std::size_t widest_window(const Sweep& sweep, std::size_t part, const LargeVecto
 EndRing make_ring(const Sweep& sweep, const LargeVector<PairRef>& pairs,
                   const std::vector<std::uint32_t>& first_end, const std::vector<PairEnds>& ends) {
   const Parts& parts = sweep.parts;
-  const auto ends_of = [&](std::size_t slot) { return first_end[slot + 1] - first_end[slot]; };
   EndRing ring;
-  ring.first.resize(parts.rows);
-  std::size_t base = 0;
-  for (std::size_t p = 0; p < parts.count(); ++p) {
-    const std::size_t begin = parts.begin_row(parts.first_block[p]),
-                      end = std::min(parts.rows, parts.begin_row(parts.first_block[p + 1]));
-    std::size_t most = 0;  // ends of one grain
-    for (std::size_t s = begin; s < end; ++s) most = std::max<std::size_t>(most, ends_of(s));
-    const std::size_t size = widest_window(sweep, p, pairs, first_end) + 2 * most;
-    std::size_t at = 0;
-    for (std::size_t s = begin; s < end; ++s) {
-      if (at + ends_of(s) > size) at = 0;  // a grain's ends lie side by side
-      ring.first[s] = static_cast<std::uint32_t>(base + at);
-      at += ends_of(s);
-    }
-    base += size;
-  }
-  ring.places = base + 1;
+  const std::size_t nobodys = place_groups(ring, sweep, pairs, lay_out(ring, first_end, parts.rows));
+  ring.places = nobodys + 1;
   ring.kept = 2 * sweep.shared_groups * kLanes + 1;
 
   ring.of_pair.resize(pairs.size());
@@ -50,12 +105,12 @@ EndRing make_ring(const Sweep& sweep, const LargeVector<PairRef>& pairs,
   for (std::size_t k = 0; k < pairs.size(); ++k) {
     const bool shared = k < sweep.shared_groups * kLanes;
     if (ends[k].a == ends[k].b) {
-      const auto nobody = static_cast<std::uint32_t>(shared ? ring.kept - 1 : base);
+      const auto nobody = static_cast<std::uint32_t>(shared ? ring.kept - 1 : nobodys);
       ring.of_pair[k] = {nobody, nobody};
       continue;
     }
     const auto place = [&](std::uint32_t slot, std::uint32_t end) {
-      return ring.first[slot] + (end - first_end[slot]);
+      return place_of(ring, slot, end - first_end[slot]);
     };
     const PairEnds in_ring{place(pairs[k].a, ends[k].a), place(pairs[k].b, ends[k].b)};
     if (!shared) {

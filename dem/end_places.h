@@ -1,5 +1,7 @@
-// Where pairs put their forces for grains to collect: one place for each end of a pair, the ends of a grain
-// side by side, by ascending id of the partner.
+// Where pairs put their forces for grains to collect: one place for each end of a pair. Grains collect kLanes
+// at a time: first the first ends of a group of grains lie side by side, then the second ones, and so on, a
+// grain's by ascending id of the partner. A grain with fewer ends than others of its group leaves places
+// empty; one with many more has the rest of its ends in a row behind.
 //
 // As a sweep goes on, a grain's ends are written from when the first of its partners is worked on until it
 // collects them. Only so many are in use at a time; in a ring they take the same small piece of memory step
@@ -19,8 +21,13 @@ struct PairEnds {
   std::uint32_t a, b;
 };
 
-/// A grain collects so many ends at a time, the last of which may be others'.
-inline constexpr std::size_t kEndsAtOnce = 4;
+/// The places of a group of grains: `ranks` times kLanes from `first` on, and behind these, grain after
+/// grain, the ends beyond, so many in all.
+struct EndRows {
+  std::uint32_t first = 0, ranks = 0, beyond = 0;
+
+  std::uint32_t rest() const { return first + ranks * static_cast<std::uint32_t>(kLanes); }
+};
 
 /// An end of a pair shared by two parts, evaluated before any grain moves: kept apart, and brought into the
 /// ring when its grain collects.
@@ -29,7 +36,8 @@ struct SharedEnd {
 };
 
 struct EndRing {
-  std::vector<std::uint32_t> first;     // place of each slot's first end
+  std::vector<EndRows> rows;            // of each group of slots
+  std::vector<std::uint32_t> count;     // ends of each slot, up to whole groups
   LargeVector<PairEnds> of_pair;        // of pairs shared by parts: their places in what is kept apart
   std::size_t places = 0;               // the last is for empty places of the list, and nobody reads it
   std::vector<SharedEnd> shared;        // by block of rows

@@ -1,4 +1,4 @@
-// How a grain moves: x, y, z and what lies beside them in its row as one vector of four.
+// How grains move, kLanes at a time.
 //
 // Synchronous Verlet: positions and velocities that the forces see all belong to the step's end. With
 // half-step velocities a part of the approach leaks into the slip of large-small contacts (Vyas et al.,
@@ -8,50 +8,69 @@
 #pragma once
 
 #include "dem/grain_store.h"
-#include "dem/simd/pack.h"
+#include "dem/simd/transpose.h"
 
 namespace interstice::dem {
 
-using Four = simd::Pack<double, 4>;
+/// A number of each grain of a group.
+using Each = simd::Pack<double, kLanes>;
 
-inline auto three_lanes() { return Four::M::from_bits(7); }
-/// The first three lanes; the fourth, which belongs to something else, is 0.
-inline Four first_three(const Four& v) { return select(three_lanes(), v, Four(0)); }
-inline Four four(const Vec3d& v) {
-  const double lanes[4] = {v.x, v.y, v.z, 0};
-  return Four::load(lanes);
+inline Vec3<Each> all_of(const Vec3d& v) { return {Each(v.x), Each(v.y), Each(v.z)}; }
+inline Vec3<Each> load(const double* x, const double* y, const double* z) {
+  return {Each::load(x), Each::load(y), Each::load(z)};
 }
-inline Vec3d three(const Four& v) {
-  double lanes[4];
-  v.store(lanes);
-  return {lanes[0], lanes[1], lanes[2]};
-}
-
-/// Puts three numbers into the row, in its number type; the fourth stays.
-template <class Real>
-void put_three(const Four& v, Real* at) {
-  using Row = simd::Pack<Real, 4>;
-  select(Row::M::from_bits(7), simd::converted<Real>(v), Row::load(at)).store(at);
+inline void store(const Vec3<Each>& v, double* x, double* y, double* z) {
+  v.x.store(x), v.y.store(y), v.z.store(z);
 }
 
 /// Velocities half a step on.
-inline Four half_step(const Four& velocity, const Four& acceleration, double half_dt) {
-  return velocity + Four(half_dt) * acceleration;
+inline Vec3<Each> half_step(const Vec3<Each>& velocity, const Vec3<Each>& acceleration, double half_dt) {
+  return velocity + Each(half_dt) * acceleration;
 }
 
-/// Moves a grain on from the present velocities and accelerations (fourth lanes 0) and predicts its
-/// velocities; returns how far it went along each axis.
+/// Present velocities and accelerations of a group.
+struct GroupState {
+  Vec3<Each> velocity, spin, acceleration, angular;
+};
+
+/// Where a group's grains are now, and how far they went in the step.
+struct GroupStep {
+  Vec3<Each> position, step;
+  Each radius;
+};
+
+/// Puts three numbers into each row, in its number type; what follows stays.
+template <class Real, class Row>
+void put_three(const Vec3<Each>& v, Row* rows, Real Row::*first) {
+  const auto w = simd::converted<Real>(v);
+  const simd::QuadStorer<Real, kLanes> numbers({w.x, w.y, w.z, simd::Pack<Real, kLanes>(0)});
+  simd::unrolled<kLanes>([&](auto lane) {
+    constexpr int i = decltype(lane)::value;
+    numbers.template store_three<i>(&(rows[i].*first));
+  });
+}
+
+/// Moves a group on, and predicts its velocities.
 template <class Real>
-Four begin_motion(PairRow<Real>& row, GrainMotion& m, const Four& velocity, const Four& spin,
-                  const Four& acceleration, const Four& angular, double dt) {
-  const Four u = half_step(velocity, acceleration, 0.5 * dt), w = half_step(spin, angular, 0.5 * dt);
-  put_three(u, &m.velocity.x);
-  put_three(w, &m.spin.x);
-  const Four step = Four(dt) * u;
-  (Four::load(&row.x) + step).store(&row.x);  // the radius stays: the step's fourth lane is 0
-  put_three(half_step(u, acceleration, 0.5 * dt), &row.vx);
-  put_three(half_step(w, angular, 0.5 * dt), &row.wx);
-  return step;
+GroupStep begin_motion(PairRow<Real>* rows, GroupMotion& m, const GroupState& now, double dt) {
+  const Vec3<Each> u = half_step(now.velocity, now.acceleration, 0.5 * dt);
+  const Vec3<Each> w = half_step(now.spin, now.angular, 0.5 * dt);
+  store(u, m.vx, m.vy, m.vz);
+  store(w, m.wx, m.wy, m.wz);
+  simd::QuadLoader<double, kLanes> sites;
+  simd::unrolled<kLanes>([&](auto lane) {
+    constexpr int i = decltype(lane)::value;
+    sites.template load<i>(reinterpret_cast<const std::byte*>(&rows[i].x));
+  });
+  const auto site = sites.quad();
+  GroupStep moved;
+  moved.step = Each(dt) * u;
+  moved.position = Vec3<Each>{site.a, site.b, site.c} + moved.step;
+  moved.radius = site.d;
+  put_three(moved.position, rows, &PairRow<Real>::x);
+  put_three(half_step(u, now.acceleration, 0.5 * dt), rows, &PairRow<Real>::vx);
+  put_three(half_step(w, now.angular, 0.5 * dt), rows, &PairRow<Real>::wx);
+  return moved;
 }
 
 }  // namespace interstice::dem

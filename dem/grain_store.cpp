@@ -11,11 +11,19 @@ PairRow<Real> pair_row(const GrainRow& g) {
 }
 
 template <class Vector>
-void take_from(Vector& v, std::span<const std::uint32_t> order) {
+void take_from(Vector& v, std::span<const std::uint32_t> order, std::size_t size) {
   if (v.empty()) return;
-  Vector taken(order.size());
+  Vector taken(size);
   for (std::size_t s = 0; s < order.size(); ++s) taken[s] = v[order[s]];
   v = std::move(taken);
+}
+
+/// Puts a row after `count` others, in whole groups.
+template <class Rows>
+void put_row(Rows& rows, std::size_t count, const GrainRow& g) {
+  using Real = decltype(rows[0].mass);
+  if (count % kLanes == 0) rows.resize(count + kLanes);
+  rows[count] = pair_row<Real>(g);
 }
 
 }  // namespace
@@ -29,22 +37,29 @@ void GrainStore::clear() {
 }
 
 void GrainStore::add(const GrainRow& g, const GrainAcceleration& acceleration) {
+  const std::size_t slot = size();
   if (single_) {
-    singles_.push_back(pair_row<float>(g));
+    put_row(singles_, slot, g);
   } else {
-    doubles_.push_back(pair_row<double>(g));
+    put_row(doubles_, slot, g);
   }
-  motions_.push_back({g.velocity(), 1 / g.mass, g.spin(), 1 / (0.4 * g.mass * g.radius * g.radius)});
+  if (slot % kLanes == 0) motions_.push_back({});
+  motions_.back().set(slot % kLanes,
+                      {g.velocity(), 1 / g.mass, g.spin(), 1 / (0.4 * g.mass * g.radius * g.radius)});
   labels_.push_back({g.position(), g.id, g.mass, g.layer});
   accelerations_.push_back(acceleration);
 }
 
 void GrainStore::take(std::span<const std::uint32_t> order) {
-  take_from(singles_, order);
-  take_from(doubles_, order);
-  take_from(motions_, order);
-  take_from(labels_, order);
-  take_from(accelerations_, order);
+  const std::size_t groups = groups_for(order.size());
+  take_from(singles_, order, groups * kLanes);
+  take_from(doubles_, order, groups * kLanes);
+  LargeVector<GroupMotion> motions(groups);
+  for (std::size_t s = 0; s < order.size(); ++s)
+    motions[s / kLanes].set(s % kLanes, motions_[order[s] / kLanes].at(order[s] % kLanes));
+  motions_ = std::move(motions);
+  take_from(labels_, order, order.size());
+  take_from(accelerations_, order, order.size());
 }
 
 void GrainStore::set_stepping(bool stepping) {
@@ -53,7 +68,7 @@ void GrainStore::set_stepping(bool stepping) {
 }
 
 GrainRow GrainStore::row(std::size_t s) const {
-  const GrainMotion& m = motions_[s];
+  const GrainMotion m = motions_[s / kLanes].at(s % kLanes);
   const GrainLabel& label = labels_[s];
   return with_rows([&](const auto& rows) {
     const auto& r = rows[s];

@@ -3,11 +3,13 @@
 // only the grain's own motion needs lies beside it, and what a step does not need at all lies apart.
 #pragma once
 
+#include <algorithm>
 #include <span>
 #include <vector>
 
 #include "base/large_pages.h"
 #include "dem/grains.h"
+#include "dem/lanes.h"
 #include "dem/reals.h"
 
 namespace interstice::dem {
@@ -25,11 +27,29 @@ struct alignas(16 * sizeof(Real) > 64 ? 32 : 64) PairRow {
 static_assert(sizeof(PairRow<float>) == 64 && sizeof(PairRow<double>) == 96);
 
 /// Between steps the present velocities; while steps follow each other, those half a step back.
-struct alignas(64) GrainMotion {
+struct GrainMotion {
   Vec3d velocity;  // [m/s]
   double inverse_mass;
   Vec3d spin;  // [rad/s]
   double inverse_inertia;
+};
+
+/// Motion of a group of grains, number by number.
+struct alignas(64) GroupMotion {
+  double vx[kLanes], vy[kLanes], vz[kLanes], inverse_mass[kLanes];
+  double wx[kLanes], wy[kLanes], wz[kLanes], inverse_inertia[kLanes];
+
+  GrainMotion at(std::size_t lane) const {
+    return {{vx[lane], vy[lane], vz[lane]},
+            inverse_mass[lane],
+            {wx[lane], wy[lane], wz[lane]},
+            inverse_inertia[lane]};
+  }
+  void set(std::size_t lane, const GrainMotion& m) {
+    vx[lane] = m.velocity.x, vy[lane] = m.velocity.y, vz[lane] = m.velocity.z;
+    wx[lane] = m.spin.x, wy[lane] = m.spin.y, wz[lane] = m.spin.z;
+    inverse_mass[lane] = m.inverse_mass, inverse_inertia[lane] = m.inverse_inertia;
+  }
 };
 
 /// At the present time, kept between steps only.
@@ -48,13 +68,14 @@ class GrainStore {
  public:
   explicit GrainStore(Precision precision) : single_(precision == Precision::mixed) {}
 
-  std::size_t size() const { return motions_.size(); }
+  std::size_t size() const { return labels_.size(); }
   void clear();
   void add(const GrainRow& grain, const GrainAcceleration& acceleration);
   /// Slot s gets what stood in slot order[s]; slots that are not named are dropped.
   void take(std::span<const std::uint32_t> order);
 
-  /// Calls body(rows) with the rows in their number type.
+  /// Calls body(rows) with the rows in their number type: of whole groups, the last of them filled with rows
+  /// of zeros.
   template <class Body>
   auto with_rows(const Body& body) {
     return single_ ? body(singles_) : body(doubles_);
@@ -66,8 +87,13 @@ class GrainStore {
   const void* row_data() const {
     return single_ ? static_cast<const void*>(singles_.data()) : doubles_.data();
   }
-  LargeVector<GrainMotion>& motions() { return motions_; }
-  const LargeVector<GrainMotion>& motions() const { return motions_; }
+  /// Which lanes of a group hold grains.
+  std::uint32_t filled_lanes(std::size_t group) const {
+    const std::size_t grains = std::min(size() - group * kLanes, kLanes);
+    return (1u << grains) - 1;
+  }
+  /// By group of slots.
+  LargeVector<GroupMotion>& motions() { return motions_; }
   std::vector<GrainLabel>& labels() { return labels_; }
   const std::vector<GrainLabel>& labels() const { return labels_; }
   std::vector<GrainAcceleration>& accelerations() { return accelerations_; }
@@ -86,7 +112,7 @@ class GrainStore {
   bool stepping_ = false;
   LargeVector<PairRow<float>> singles_;
   LargeVector<PairRow<double>> doubles_;
-  LargeVector<GrainMotion> motions_;
+  LargeVector<GroupMotion> motions_;
   std::vector<GrainLabel> labels_;
   std::vector<GrainAcceleration> accelerations_;  // empty while steps follow each other
 };

@@ -6,13 +6,9 @@
 
 #include "base/error.h"
 #include "base/parallel.h"
-#include "dem/site_order.h"
 
 namespace interstice::dem {
 namespace {
-
-constexpr std::int64_t kRebuildsPerSort = 32;
-constexpr std::size_t kPartsPerThread = 4;
 
 Vec3d offset_at(const Vec3d& offset, const Vec3d& velocity, std::int64_t steps, double dt) {
   return offset + (static_cast<double>(steps) * dt) * velocity;
@@ -92,7 +88,7 @@ void Simulation::advance(std::int64_t steps) {
     ++step_;
     begun_ = false;
     place_walls();
-    rebuild_if_needed();
+    update_lists();
     evaluate_and_move(s + 1 < steps);
   }
 }
@@ -105,10 +101,9 @@ std::vector<GrainRow> Simulation::rows() const {
 }
 
 void Simulation::take_report(const std::vector<PassReport>& reports) {
-  Four squared(0);
   bool left = false;
   for (const PassReport& r : reports) {
-    squared = max_of(squared, r.step_squared);
+    strayed_ = strayed_ || r.strayed;
     left = left || r.left;
     if (r.broken >= 0) {
       throw UnstableError(
@@ -117,11 +112,6 @@ void Simulation::take_report(const std::vector<PassReport>& reports) {
           " s): the time step is too large for these contacts or speeds; use a smaller [time] step");
     }
   }
-  const Vec3d longest = three(squared);
-  const double step = std::sqrt(longest.x + longest.y + longest.z);
-  moved_ += step;
-  moved_since_refresh_ += step;
-  fastest_ = step / dt_;
   begun_ = true;
   grains_.set_stepping(true);
   if (left) remove_leavers();
@@ -150,161 +140,17 @@ void Simulation::remove_leavers() {
   list_valid_ = false;
 }
 
-/// How far any grain is from where the list was built [m].
-double Simulation::farthest_moved() const {
-  const Blocks blocks{grains_.size(), 4096};
-  std::vector<double> farthest(blocks.count(), 0);
-  for_each_block(blocks, [&](std::size_t b, std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      const Vec3d moved = grains_.site(i).position() - grains_.labels()[i].built;
-      farthest[b] = std::max(farthest[b], dot(moved, moved));
-    }
-  });
-  return std::sqrt(farthest.empty() ? 0 : *std::max_element(farthest.begin(), farthest.end()));
-}
-
-double Simulation::wall_travel() const {
-  double farthest = 0;
-  for (std::size_t w = 0; w < walls_.size(); ++w) {
-    const auto corner = [](const Shape& s) {
-      return std::holds_alternative<Plane>(s) ? std::get<Plane>(s).point : std::get<Box>(s).lo;
-    };
-    farthest = std::max(farthest, norm(corner(walls_[w]) - corner(refreshed_walls_[w])));
-  }
-  return farthest;
-}
-
-/// `moved_` adds up the longest steps; where grains go to and fro it grows beyond how far they are, and is
-/// measured anew before anything is done about it.
-void Simulation::rebuild_if_needed() {
-  if (list_valid_ && 2 * moved_ >= skin_) {
-    moved_ = std::min(moved_, farthest_moved());
-    list_valid_ = 2 * moved_ < 0.75 * skin_;  // else it would be measured again in a few steps
-  }
-  if (!list_valid_) {
-    rebuild();
-  } else if (moved_since_refresh_ + std::max(moved_since_refresh_, wall_travel()) >= near_gap_) {
-    refresh({}, grains_.sites());
-  }
-}
-
-/// Lists that last: the near pairs some 30 steps at the present speed, the candidates four times as long.
-/// Bits do not depend on it, only speed does.
-void Simulation::choose_gaps(const std::vector<GrainSite>& sites) {
-  double radius_sum = 0, fastest = fastest_;
-  for (const GrainSite& g : sites) radius_sum += g.radius;
-  for (const WallMotion& m : motion_of_wall_) fastest = std::max(fastest, norm(m.velocity));
-  const double diameter = sites.empty() ? 0 : 2 * radius_sum / static_cast<double>(sites.size());
-  near_gap_ = std::clamp(60 * fastest * dt_, 0.002 * diameter, 0.1 * diameter);
-  skin_ = std::max(4 * near_gap_, 0.04 * diameter);
-  if (options_.skin > 0) {
-    skin_ = options_.skin;
-    near_gap_ = 0.25 * skin_;
-  }
-}
-
 SearchSpace Simulation::search_space() const {
-  SearchSpace space{model_.domain, {}, skin_};
+  SearchSpace space{model_.domain, {}, 0};
   for (int axis = 0; axis < 3; ++axis) space.periodic[axis] = model_.boundary[axis] == AxisBoundary::periodic;
   return space;
 }
 
-/// How far bodies act on each other beyond contact [m], at most.
-double Simulation::attraction_reach(double largest) const {
-  double reach = 0;
-  for (const PairConstants<double>& c : constants_) {
-    if (model_.laws.cohesion == CohesionLaw::jkr)  // grows with R*, which is at most the radius (at a wall)
-      reach = std::max(reach, jkr_reach(c.effective_modulus, c.work_of_adhesion, largest));
-    if (model_.laws.cohesion == CohesionLaw::van_der_waals) reach = std::max(reach, c.range);
-  }
-  return reach;
-}
-
-void Simulation::check_periodic_lengths(double largest) const {
-  for (int axis = 0; axis < 3; ++axis) {
-    const double length = model_.domain.hi[axis] - model_.domain.lo[axis];
-    if (model_.boundary[axis] != AxisBoundary::periodic || length > 2 * (2 * largest + skin_ + attraction_))
-      continue;
-    throw InputError(
-        "domain.box: the periodic axis " + std::string(1, "xyz"[axis]) +
-        " is shorter than two of the largest grains; make it longer, or the boundary open or a wall");
-  }
-}
-
-/// Now and then, or when grains came or went: neighbours in space beside each other in memory.
-void Simulation::sort_grains(std::vector<GrainSite>& sites) {
-  if (sorted_at_ >= 0 && sites.size() == built_ids_.size() && rebuilds_ - sorted_at_ < kRebuildsPerSort)
-    return;
-  const std::vector<std::uint32_t> order = order_in_space(sites);
-  grains_.take(order);
-  sites = grains_.sites();
-  sorted_at_ = rebuilds_;
-}
-
-void Simulation::rebuild() {
-  std::vector<GrainSite> sites = grains_.sites();
-  double largest = 0;
-  for (const GrainSite& g : sites) largest = std::max(largest, g.radius);
-  choose_gaps(sites);
-  attraction_ = attraction_reach(largest);
-  check_periodic_lengths(largest);
-  std::vector<std::uint32_t> slot_of_id(static_cast<std::size_t>(next_id_), PairContacts::kNoSlot);
-  for (std::uint32_t s = 0; s < built_ids_.size(); ++s)
-    slot_of_id[static_cast<std::size_t>(built_ids_[s])] = s;
-  sort_grains(sites);
-  std::vector<std::uint32_t> old_slot(sites.size());
-  for (std::size_t s = 0; s < sites.size(); ++s)
-    old_slot[s] = slot_of_id[static_cast<std::size_t>(sites[s].id)];
-
-  SearchSpace space = search_space();
-  space.skin += attraction_;
-  candidates_ = options_.reference ? find_pairs_brute_force(sites, space) : find_pairs(sites, space);
-  refresh(old_slot, sites);
-  built_ids_.resize(sites.size());
-  const auto material = [&](std::size_t s) {
-    return grains_.with_rows([&](const auto& rows) { return static_cast<std::int64_t>(rows[s].material); });
-  };
-  only_material_ = sites.empty() ? 0 : material(0);
-  for (std::size_t s = 0; s < sites.size(); ++s) {
-    built_ids_[s] = sites[s].id;
-    grains_.labels()[s].built = sites[s].position();
-    if (material(s) != only_material_) only_material_ = -1;
-  }
-  moved_ = 0;
-  list_valid_ = true;
-  ++rebuilds_;
-}
-
-/// Of the candidates, those that may touch before grains have moved by half the gap; and the walls near
-/// grains.
-void Simulation::refresh(const std::vector<std::uint32_t>& old_slot, const std::vector<GrainSite>& sites) {
-  SearchSpace space = search_space();
-  space.skin = near_gap_ + attraction_;
-  const Blocks blocks{candidates_.size(), 4096};
-  std::vector<std::vector<PairRef>> near(blocks.count());
-  for_each_block(blocks, [&](std::size_t b, std::size_t begin, std::size_t end) {
-    for (std::size_t k = begin; k < end; ++k)
-      if (are_near(sites[candidates_[k].a], sites[candidates_[k].b], space))
-        near[b].push_back(candidates_[k]);
-  });
-  std::vector<PairRef> pairs;
-  pairs.reserve(candidates_.size());
-  for (const auto& n : near) pairs.insert(pairs.end(), n.begin(), n.end());
-  pair_contacts_.replace(pairs, sites, old_slot, parts());
-  wall_contacts_.replace(sites, walls_, space.skin, old_slot);
-  refreshed_walls_ = walls_;
-  moved_since_refresh_ = 0;
-}
-
-/// One part for one thread; several a thread else, so that the fastest does not wait for the slowest.
-Parts Simulation::parts() const {
-  return {grains_.size(), options_.reference || threads() == 1 ? 1 : kPartsPerThread * threads()};
-}
-
 std::size_t Simulation::bytes() const {
   return grains_.bytes() + pair_contacts_.bytes() + wall_contacts_.bytes() +
-         candidates_.capacity() * sizeof(PairRef) + built_ids_.capacity() * sizeof(std::int64_t) +
-         energies_.capacity() * sizeof(GrainEnergy);
+         candidates_.capacity() * sizeof(PairRef) +
+         (reach_.capacity() + path_left_.capacity()) * sizeof(double) +
+         built_ids_.capacity() * sizeof(std::int64_t) + energies_.capacity() * sizeof(GrainEnergy);
 }
 
 std::vector<std::uint32_t> Simulation::slots_by_id() const {

@@ -26,7 +26,7 @@ namespace interstice::dem {
 
 struct SimulationOptions {
   bool reference = false;  // serial loops, neighbours by trying every pair
-  double skin = 0;         // [m]; 0: chosen at every rebuild from how fast the grains are
+  double skin = 0;         // [m]; 0: chosen for each grain from how fast it is
   Precision precision = Precision::real64;
   bool energies = false;  // keep account of every grain's energy (energy.h)
 };
@@ -92,13 +92,9 @@ class Simulation {
     Vec3d offset{0, 0, 0};   // of the shape at `since` from the shape at time 0
     std::int64_t since = 0;  // step
   };
-  /// Of the domain; fourth lanes of no meaning.
-  struct Bounds {
-    Four lo, hi;
-  };
   /// What one block of grains reports of a pass.
   struct PassReport {
-    Four step_squared{0};      // the largest along each axis [m^2]
+    bool strayed = false;      // a grain used up its short reach
     bool left = false;         // a grain crossed an open face
     std::int64_t broken = -1;  // id of a grain whose motion is no longer sane
   };
@@ -110,13 +106,11 @@ class Simulation {
   template <class Body>
   void for_blocks(const Blocks& blocks, const Body& body) const;
   template <class Real>
-  void begin_row(PairRow<Real>& row, std::size_t slot, const Four& velocity, const Four& spin,
-                 const Four& acceleration, const Four& angular, double dt, const Bounds& bounds,
-                 PassReport& report);
+  void begin_group(PairRow<Real>* rows, std::size_t group, const GroupState& now, PassReport& report);
+  void end_group(std::size_t group, const GroupState& now);
   template <class Real>
   PassReport move_rows(PairRow<Real>* rows, const StepView& view, std::size_t begin, std::size_t end,
                        bool begin_next);
-  double farthest_moved() const;
   void evaluate_and_move(bool begin_next);
   template <class Real>
   void evaluate_and_move(PairRow<Real>* rows, bool begin_next);
@@ -125,9 +119,15 @@ class Simulation {
   void take_report(const std::vector<PassReport>& reports);
   bool inside(const Vec3d& position) const;
   void remove_leavers();
-  void rebuild_if_needed();
+  double near_reach(double speed) const;
+  double near_reach_of(std::size_t slot) const;
+  double candidate_reach_of(std::size_t slot) const;
+  double near_reach_of_walls() const;
+  bool candidates_last() const;
+  void update_lists();
   void rebuild();
-  void choose_gaps(const std::vector<GrainSite>& sites);
+  void note_materials();
+  void find_candidates(const std::vector<GrainSite>& sites);
   void check_periodic_lengths(double largest) const;
   void sort_grains(std::vector<GrainSite>& sites);
   void refresh(const std::vector<std::uint32_t>& old_slot, const std::vector<GrainSite>& sites);
@@ -139,8 +139,9 @@ class Simulation {
   void count_inserted_contacts();
   double inserted_on_wall(const GrainRow& grain, const WallContact& contact) const;
   template <class Real>
-  void add_walls(const StepView& view, const PairRow<Real>& row, std::size_t slot,
-                 std::span<WallContact> walls, Four& force, Four& torque);
+  void add_walls(const StepView& view, const PairRow<Real>* rows, std::size_t group, Vec3<Each>& force,
+                 Vec3<Each>& torque);
+  void add_lifting(std::size_t first, const Vec3<Each>& step);
   void add_heat(std::size_t i, const WallTotals& walls);
   std::size_t id_of(std::size_t slot) const { return static_cast<std::size_t>(grains_.labels()[slot].id); }
   void note_leaver(std::size_t i);
@@ -167,14 +168,14 @@ class Simulation {
   std::int64_t counted_ids_ = 0;       // grains below have had their first step
 
   bool list_valid_ = false;
-  bool begun_ = false;  // the step after step_ has been begun
-  double skin_ = 0;
-  std::vector<PairRef> candidates_;  // nearer than the skin when they were found
-  double near_gap_ = 0;              // [m] of the pairs worked on, when they were chosen from the candidates
-  double attraction_ = 0;            // how far bodies attract each other [m]
-  double moved_since_refresh_ = 0;   // at most [m]
-  double moved_ = 0;                 // at most this far is any grain from where the list was built [m]
-  double fastest_ = 0;               // a bound of the speed in the last step [m/s]
+  bool begun_ = false;                   // the step after step_ has been begun
+  double mean_diameter_ = 0;             // when the list was built [m]
+  double attraction_ = 0;                // how far bodies attract each other [m]
+  std::vector<PairRef> candidates_;      // whose long reaches meet
+  std::vector<double> reach_;            // by slot: how far from where the list was built candidates last [m]
+  LargeVector<double> path_left_;        // by slot, up to whole groups: what is left of the short reaches [m]
+  bool strayed_ = false;                 // a grain has used up its short reach
+  double reach_of_walls_ = 0;            // the same for walls [m]
   std::vector<Shape> refreshed_walls_;   // as they stood when walls near grains were listed
   std::vector<std::int64_t> built_ids_;  // by slot when the list was built; slots may have changed since
   std::int64_t rebuilds_ = 0, sorted_at_ = -1;

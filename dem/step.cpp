@@ -3,7 +3,10 @@
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
+#include <bit>
+
 #include "base/parallel.h"
+#include "dem/end_sums.h"
 #include "dem/simulation.h"
 
 namespace interstice::dem {
@@ -12,37 +15,6 @@ namespace {
 constexpr std::size_t kGroupsPerTask = 64;
 /// How far a grain may go in a step, in squared radii.
 constexpr double kStepLimit = 0.25;
-
-/// Force and torque on a grain; fourth lanes 0.
-struct Collected {
-  Four force, torque;
-};
-
-/// Sums what a grain's ends hold, in their order. Several at a time, of which those that are not its own
-/// count nothing: loops as short as these would often be left by surprise.
-inline Collected collect(const float* at, std::size_t ends) {
-  using Eight = simd::Pack<double, 8>;
-  Eight sum(0);
-  for (std::size_t e = 0; e < ends; e += kEndsAtOnce) {
-    for (std::size_t i = e; i < e + kEndsAtOnce; ++i) {
-      const Eight end = simd::converted<double>(simd::Pack<float, 8>::load(at + kEndReals<float> * i));
-      sum += select(Eight::M::from_bits(i < ends ? 255 : 0), end, Eight(0));
-    }
-  }
-  return {lower_half(sum), upper_half(sum)};
-}
-inline Collected collect(const double* at, std::size_t ends) {
-  Four force(0), torque(0);
-  for (std::size_t e = 0; e < ends; e += kEndsAtOnce) {
-    for (std::size_t i = e; i < e + kEndsAtOnce; ++i) {
-      const double* end = at + kEndReals<double> * i;
-      const auto own = Four::M::from_bits(i < ends ? 7 : 0);  // the fourth is a number of the next triple
-      force += select(own, Four::load(end), Four(0));
-      torque += select(own, Four::load(end + 3), Four(0));
-    }
-  }
-  return {force, torque};
-}
 
 }  // namespace
 
@@ -65,25 +37,31 @@ bool Simulation::wrap_or_leave(PairRow<Real>& row, GrainLabel& label) const {
   return left;
 }
 
+/// Begins the step of a group of grains.
 template <class Real>
-inline void Simulation::begin_row(PairRow<Real>& row, std::size_t i, const Four& velocity, const Four& spin,
-                                  const Four& acceleration, const Four& angular, double dt,
-                                  const Bounds& bounds, PassReport& report) {
-  const Four step = begin_motion(row, grains_.motions()[i], velocity, spin, acceleration, angular, dt);
-  const Four squared = step * step;
-  // Three times too strict, to be sure without a sum.
-  if ((squared <= Four(kStepLimit / 3 * (row.radius * row.radius))).bits() != 15) {
-    const Vec3d s = three(squared);
-    if (!(s.x + s.y + s.z <= kStepLimit * row.radius * row.radius) && report.broken < 0)
-      report.broken = grains_.labels()[i].id;
+inline void Simulation::begin_group(PairRow<Real>* rows, std::size_t group, const GroupState& now,
+                                    PassReport& report) {
+  const std::size_t first = group * kLanes;
+  const std::uint32_t filled = grains_.filled_lanes(group);
+  const GroupStep moved = begin_motion(rows + first, grains_.motions()[group], now, dt_);
+  const Each squared = dot(moved.step, moved.step);
+  const std::uint32_t broken =
+      filled & ~(squared <= Each(kStepLimit) * (moved.radius * moved.radius)).bits();  // or no number
+  if (broken != 0 && report.broken < 0)
+    report.broken = grains_.labels()[first + static_cast<std::size_t>(std::countr_zero(broken))].id;
+  const Each left = Each::load(&path_left_[first]) - sqrt_of(squared);
+  left.store(&path_left_[first]);
+  report.strayed |= ((left < Each(0)).bits() & filled) != 0;
+
+  const Vec3<Each> lo = all_of(model_.domain.lo), hi = all_of(model_.domain.hi);
+  const Vec3<Each>& p = moved.position;
+  const auto inside =
+      (p.x >= lo.x) & (p.x < hi.x) & (p.y >= lo.y) & (p.y < hi.y) & (p.z >= lo.z) & (p.z < hi.z);
+  for (std::uint32_t out = filled & ~inside.bits(); out != 0; out &= out - 1) {
+    const std::size_t slot = first + static_cast<std::size_t>(std::countr_zero(out));
+    report.left |= wrap_or_leave(rows[slot], grains_.labels()[slot]);
   }
-  report.step_squared = max_of(report.step_squared, squared);
-  const Four position = Four::load(&row.x);
-  if ((((position >= bounds.lo) & (position < bounds.hi)).bits() & 7) != 7)
-    report.left |= wrap_or_leave(row, grains_.labels()[i]);
-  if (options_.energies) {
-    energies_[id_of(i)].gravity += grains_.labels()[i].mass * dot(model_.gravity, three(step));
-  }
+  if (options_.energies) add_lifting(first, moved.step);
 }
 
 /// Calls body(block, begin, end) for every block, in the reference one after the other.
@@ -95,16 +73,25 @@ void Simulation::for_blocks(const Blocks& blocks, const Body& body) const {
 
 /// From present velocities and accelerations.
 void Simulation::begin_step() {
+  path_left_.resize(groups_for(grains_.size()) * kLanes, 0);  // grains may have come since lists were made
   grains_.with_rows([&](auto& rows) {
     const Blocks blocks{grains_.size(), kRowsPerBlock};
     std::vector<PassReport> reports(blocks.count());
-    const Bounds bounds{four(model_.domain.lo), four(model_.domain.hi)};
     for_blocks(blocks, [&](std::size_t b, std::size_t begin, std::size_t end) {
-      for (std::size_t i = begin; i < end; ++i) {
-        const GrainMotion& m = grains_.motions()[i];
-        const GrainAcceleration& a = grains_.accelerations()[i];
-        begin_row(rows[i], i, four(m.velocity), four(m.spin), four(a.linear), four(a.angular), dt_, bounds,
-                  reports[b]);
+      for (std::size_t g = begin / kLanes; g < groups_for(end); ++g) {
+        const GroupMotion& m = grains_.motions()[g];
+        double a[6][kLanes] = {};
+        for (std::size_t slot = g * kLanes; slot < std::min(end, (g + 1) * kLanes); ++slot) {
+          const GrainAcceleration& from = grains_.accelerations()[slot];
+          for (int axis = 0; axis < 3; ++axis) {
+            a[axis][slot % kLanes] = from.linear[axis];
+            a[axis + 3][slot % kLanes] = from.angular[axis];
+          }
+        }
+        begin_group(
+            rows.data(), g,
+            {load(m.vx, m.vy, m.vz), load(m.wx, m.wy, m.wz), load(a[0], a[1], a[2]), load(a[3], a[4], a[5])},
+            reports[b]);
       }
     });
     take_report(reports);
@@ -157,21 +144,36 @@ void Simulation::evaluate_and_move(PairRow<Real>* rows, bool begin_next) {
   if (begin_next) take_report(reports);
 }
 
+/// Adds what walls do to the grains of a group, and with energies counts their heat.
 template <class Real>
-void Simulation::add_walls(const StepView& view, const PairRow<Real>& row, std::size_t i,
-                           std::span<WallContact> walls, Four& force, Four& torque) {
+void Simulation::add_walls(const StepView& view, const PairRow<Real>* rows, std::size_t group,
+                           Vec3<Each>& force, Vec3<Each>& torque) {
+  const std::size_t first = group * kLanes, end = std::min(grains_.size(), first + kLanes);
+  if (wall_contacts_.none_in(first, end) && !options_.energies) return;
   const auto d = [](Real value) { return static_cast<double>(value); };
-  const WallGrain grain{row.position(),
-                        {d(row.vx), d(row.vy), d(row.vz)},
-                        {d(row.wx), d(row.wy), d(row.wz)},
-                        row.radius,
-                        d(row.mass),
-                        row.material};
-  WallTotals totals;
-  kernels_.walls(model_.laws, view, grain, walls, totals);
-  force += four(totals.force);
-  torque += four(totals.torque);
-  if (options_.energies) add_heat(i, totals);
+  double forces[3][kLanes], torques[3][kLanes];
+  store(force, forces[0], forces[1], forces[2]);
+  store(torque, torques[0], torques[1], torques[2]);
+  for (std::size_t i = first; i < end; ++i) {
+    const std::span<WallContact> walls = wall_contacts_.of(i);
+    if (walls.empty() && !options_.energies) continue;
+    const PairRow<Real>& row = rows[i];
+    const WallGrain grain{row.position(),
+                          {d(row.vx), d(row.vy), d(row.vz)},
+                          {d(row.wx), d(row.wy), d(row.wz)},
+                          row.radius,
+                          d(row.mass),
+                          row.material};
+    WallTotals totals;
+    kernels_.walls(model_.laws, view, grain, walls, totals);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      forces[axis][i - first] += totals.force[static_cast<int>(axis)];
+      torques[axis][i - first] += totals.torque[static_cast<int>(axis)];
+    }
+    if (options_.energies) add_heat(i, totals);
+  }
+  force = load(forces[0], forces[1], forces[2]);
+  torque = load(torques[0], torques[1], torques[2]);
 }
 
 /// Collects the forces of some grains, completes their velocities, and begins the next step.
@@ -180,30 +182,40 @@ template <class Real>
                                                               std::size_t begin, std::size_t end,
                                                               bool begin_next) {
   PassReport report;
-  const std::uint32_t *ends = pair_contacts_.first_ends(), *places = pair_contacts_.ring_places();
-  const Real* const end_forces = static_cast<const Real*>(view.pairs.end_forces);
-  const Four gravity = four(model_.gravity);
-  const Bounds bounds{four(model_.domain.lo), four(model_.domain.hi)};
-  const double dt = dt_;
-  GrainMotion* const motions = grains_.motions().data();
-  for (std::size_t i = begin; i < end; ++i) {
-    Collected sum = collect(end_forces + kEndReals<Real> * places[i], ends[i + 1] - ends[i]);
-    const std::span<WallContact> walls = wall_contacts_.of(i);
-    if (!walls.empty() || options_.energies) add_walls(view, rows[i], i, walls, sum.force, sum.torque);
-    GrainMotion& m = motions[i];
-    const Four acceleration = gravity + Four(m.inverse_mass) * sum.force;
-    const Four angular = Four(m.inverse_inertia) * sum.torque;
-    const Four velocity = half_step(first_three(Four::load(&m.velocity.x)), acceleration, 0.5 * dt);
-    const Four spin = half_step(first_three(Four::load(&m.spin.x)), angular, 0.5 * dt);
+  const auto* const ends = static_cast<const Real*>(view.pairs.end_forces);
+  const Vec3<Each> gravity = all_of(model_.gravity);
+  for (std::size_t g = begin / kLanes; g < groups_for(end); ++g) {
+    const auto sums = end_sums(ends, pair_contacts_.end_rows(g), pair_contacts_.end_counts() + g * kLanes);
+    Vec3<Each> force = simd::converted<double>(sums.force), torque = simd::converted<double>(sums.torque);
+    add_walls(view, rows, g, force, torque);
+    GroupMotion& m = grains_.motions()[g];
+    GroupState now;
+    now.acceleration = gravity + Each::load(m.inverse_mass) * force;
+    now.angular = Each::load(m.inverse_inertia) * torque;
+    now.velocity = half_step(load(m.vx, m.vy, m.vz), now.acceleration, 0.5 * dt_);
+    now.spin = half_step(load(m.wx, m.wy, m.wz), now.angular, 0.5 * dt_);
     if (begin_next) {
-      begin_row(rows[i], i, velocity, spin, acceleration, angular, dt, bounds, report);
+      begin_group(rows, g, now, report);
     } else {
-      put_three(velocity, &m.velocity.x);
-      put_three(spin, &m.spin.x);
-      grains_.accelerations()[i] = {three(acceleration), three(angular)};
+      end_group(g, now);
     }
   }
   return report;
+}
+
+/// Keeps the present velocities and accelerations of a group.
+void Simulation::end_group(std::size_t group, const GroupState& now) {
+  GroupMotion& m = grains_.motions()[group];
+  store(now.velocity, m.vx, m.vy, m.vz);
+  store(now.spin, m.wx, m.wy, m.wz);
+  double a[6][kLanes];
+  store(now.acceleration, a[0], a[1], a[2]);
+  store(now.angular, a[3], a[4], a[5]);
+  const std::size_t first = group * kLanes, end = std::min(grains_.size(), first + kLanes);
+  for (std::size_t slot = first; slot < end; ++slot) {
+    const std::size_t i = slot - first;
+    grains_.accelerations()[slot] = {{a[0][i], a[1][i], a[2][i]}, {a[3][i], a[4][i], a[5][i]}};
+  }
 }
 
 }  // namespace interstice::dem

@@ -4,6 +4,16 @@
 
 namespace interstice::dem {
 
+/// The work of gravity on a group that moved.
+void Simulation::add_lifting(std::size_t first, const Vec3<Each>& step) {
+  double steps[3][kLanes];
+  store(step, steps[0], steps[1], steps[2]);
+  for (std::size_t i = first; i < std::min(grains_.size(), first + kLanes); ++i) {
+    const Vec3d moved{steps[0][i - first], steps[1][i - first], steps[2][i - first]};
+    energies_[id_of(i)].gravity += grains_.labels()[i].mass * dot(model_.gravity, moved);
+  }
+}
+
 /// Half of each pair's heat to each of its grains; the work of walls by the trapezoidal rule.
 void Simulation::add_heat(std::size_t i, const WallTotals& walls) {
   GrainEnergy& e = energies_[id_of(i)];

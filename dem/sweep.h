@@ -9,14 +9,14 @@
 #include <cstdint>
 #include <vector>
 
+#include "dem/lanes.h"
 #include "dem/neighbours.h"
 
 namespace interstice::dem {
 
-/// Pairs that are evaluated together, a lane of a vector each.
-inline constexpr std::size_t kLanes = 16;
 /// Rows that move on together.
 inline constexpr std::size_t kRowsPerBlock = 256;
+static_assert(kRowsPerBlock % kLanes == 0);
 
 /// Ranges of blocks of rows.
 struct Parts {

@@ -15,11 +15,11 @@ inline constexpr double kCdtShare = 0.2;
 /// step.
 template <class T>
 INTERSTICE_HD inline Vec3<T> cdt_torque(const Vec3<T>& relative_spin, const Vec3<T>& normal, const T& limit,
-                                        const T& effective_mass, const T& effective_radius, const T& dt) {
-  const T stopping = T(kCdtShare * 0.4) * (effective_mass / dt) * square(effective_radius);  // [N m s]
-  const T speed = norm(relative_spin);
-  const auto fast = speed * stopping > limit;
-  const T scale = select(fast, limit / select(fast, speed, T(1)), stopping);
+                                        const T& effective_mass, const T& effective_radius,
+                                        const T& inverse_dt) {
+  const T stopping =
+      T(kCdtShare * 0.4) * (effective_mass * inverse_dt) * square(effective_radius);  // [N m s]
+  const T scale = min_of(limit * inverse_length_of(relative_spin), stopping);
   const Vec3<T> torque = -scale * relative_spin;
   return torque - dot(torque, normal) * normal;
 }

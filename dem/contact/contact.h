@@ -42,8 +42,14 @@ struct ContactMemory {
 template <class T>
 struct StepConstants {
   T dt;               // [s]
+  T inverse_dt;       // [1/s]
   T slider_velocity;  // [m/s]
 };
+
+template <class T>
+StepConstants<T> step_constants(double dt, double slider_velocity) {
+  return {T(dt), T(1 / dt), T(slider_velocity)};
+}
 
 /// What was lost in one step, by mechanism [J].
 template <class T>
@@ -138,8 +144,8 @@ INTERSTICE_HD inline ContactForce<T> evaluate_contact(const Laws& laws, const Co
 
   const T rolling_limit = c.rolling_friction * abs_of(normal.load) * k.effective_radius;
   if (laws.rolling == RollingLaw::cdt) {
-    out.rolling_torque =
-        cdt_torque(k.relative_spin, k.normal, rolling_limit, k.effective_mass, k.effective_radius, step.dt);
+    out.rolling_torque = cdt_torque(k.relative_spin, k.normal, rolling_limit, k.effective_mass,
+                                    k.effective_radius, step.inverse_dt);
     out.heat.rolling = -step.dt * dot(out.rolling_torque, k.relative_spin);
   } else if (laws.rolling == RollingLaw::epsd2) {
     const auto r = epsd2_torque(memory.rolling, k.normal, k.relative_spin, step.dt,

@@ -33,15 +33,14 @@ INTERSTICE_HD inline TangentialForce<T> mindlin_force(const TangentialSpring<T>&
                                                       const Vec3<T>& velocity, const T& dt,
                                                       const T& stiffness, const T& dashpot, const T& limit) {
   const auto unloads = stiffness < old.stiffness;
-  const T lessened = select(unloads, stiffness / select(unloads, old.stiffness, T(1)), T(1));
+  const T lessened = select(unloads, stiffness * inverse_of(select(unloads, old.stiffness, T(1))), T(1));
   const Vec3<T> kept = lessened * (old.force - dot(old.force, normal) * normal);
   const Vec3<T> spring = kept - (stiffness * dt) * velocity;
   const Vec3<T> trial = spring - dashpot * velocity;
-  const T magnitude = length_of(trial);
-  const auto slides = magnitude > limit;
-  const T scale = limit / select(slides, magnitude, T(1));
+  const T held = limit * inverse_length_of(trial);  // what share of it friction can hold
+  const auto slides = held < T(1);
   TangentialForce<T> out;
-  out.force = select(slides, scale * trial, trial);
+  out.force = select(slides, held * trial, trial);
   out.spring = {select(slides, out.force, spring), stiffness};
 
   const T compliance = T(1) / max_of(stiffness, T(1e-30));  // a contact of zero overlap has no stiffness

@@ -28,13 +28,29 @@ INTERSTICE_HD inline float abs_of(float a) { return std::fabs(a); }
 INTERSTICE_HD inline float sqrt_of(float a) { return std::sqrt(a); }
 INTERSTICE_HD inline float cbrt_of(float a) { return std::cbrt(a); }
 
-/// The length of a force or a torque. Scaled in single precision, where the square of the torque on a grain
-/// of 1 um underflows.
-INTERSTICE_HD inline double length_of(const Vec3<double>& v) { return norm(v); }
-INTERSTICE_HD inline float length_of(const Vec3<float>& v) {
-  const float largest = max_of(max_of(abs_of(v.x), abs_of(v.y)), max_of(abs_of(v.z), 1e-37f));
-  return largest * norm(1 / largest * v);
+/// 1/a and 1/sqrt(a) of a normal number (a > 0 for the root). Packs are a unit in the last place off
+/// (simd/pack.h).
+INTERSTICE_HD inline double inverse_of(double a) { return 1 / a; }
+INTERSTICE_HD inline float inverse_of(float a) { return 1 / a; }
+INTERSTICE_HD inline double inverse_root_of(double a) { return 1 / std::sqrt(a); }
+INTERSTICE_HD inline float inverse_root_of(float a) { return 1 / std::sqrt(a); }
+
+/// The least length squared that counts, and by how much lengths are scaled before they are squared: in
+/// single precision the square of a force on a grain of 100 nm, or of a torque on one of 1 um, underflows.
+template <class Real>
+inline constexpr Real kLeastSquare = sizeof(Real) == 4 ? Real(1e-37) : Real(1e-300);
+template <class Real>
+inline constexpr Real kLengthScale = sizeof(Real) == 4 ? Real(4294967296.0) : Real(1);
+
+/// 1/|v| of a force [N], a torque [N m] or a spin [rad/s] below 4e9; large but finite where v is zero.
+template <class T, class Real = T>
+INTERSTICE_HD inline T inverse_length(const Vec3<T>& v) {
+  const T scale(kLengthScale<Real>);
+  const Vec3<T> scaled = scale * v;
+  return scale * inverse_root_of(max_of(dot(scaled, scaled), T(kLeastSquare<Real>)));
 }
+INTERSTICE_HD inline double inverse_length_of(const Vec3<double>& v) { return inverse_length(v); }
+INTERSTICE_HD inline float inverse_length_of(const Vec3<float>& v) { return inverse_length(v); }
 
 template <class T>
 INTERSTICE_HD inline T square(const T& a) {

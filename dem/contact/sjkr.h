@@ -11,7 +11,8 @@ namespace interstice::dem {
 /// overlap = a + b - d. None where one sphere lies wholly inside the other (a bad start, a heavy press).
 template <class T>
 INTERSTICE_HD inline T sphere_sphere_area(const T& a, const T& b, const T& d, const T& overlap) {
-  return max_of(T(0.25 * M_PI) * overlap * (d + a - b) * (d - a + b) * (d + a + b) / (d * d), T(0));
+  return max_of(T(0.25 * M_PI) * overlap * (d + a - b) * (d - a + b) * (d + a + b) * square(inverse_of(d)),
+                T(0));
 }
 
 /// Area in which a sphere of radius r intersects a plane at distance d = r - overlap from its centre [m^2].

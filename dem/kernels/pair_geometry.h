@@ -44,13 +44,14 @@ PairGeometry<P> pair_geometry(const Vec3<D>& a, const D& radius_a, const Vec3<D>
   PairGeometry<P> g;
   const Vec3<P> between = simd::converted<Real>(apart);
   const P d2_real = simd::converted<Real>(squared);
-  const P inverse_distance = P(1) / sqrt_of(d2_real);
+  const P inverse_distance = inverse_root_of(d2_real);
   g.radius_a = simd::converted<Real>(radius_a);
   g.radius_b = simd::converted<Real>(radius_b);
   g.reach = simd::converted<Real>(reach);
-  g.inverse_reach = P(1) / g.reach;
   g.distance = d2_real * inverse_distance;
-  g.overlap = simd::converted<Real>(square(reach) - squared) / (g.reach + g.distance);
+  const P sum = g.reach + g.distance, inverse = inverse_of(g.reach * sum);  // one division for two
+  g.inverse_reach = sum * inverse;
+  g.overlap = simd::converted<Real>(square(reach) - squared) * (g.reach * inverse);
   g.normal = inverse_distance * between;
   return g;
 }

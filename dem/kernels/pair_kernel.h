@@ -55,12 +55,18 @@ void store_spring(const TangentialSpring<P>& spring, const typename P::M& kept, 
 template <class P>
 void store_ends(const PairEnds* ends, const Vec3<P>& force, const Vec3<P>& torque_a, const Vec3<P>& torque_b,
                 RealOf<P>* end_forces) {
-  using Real = RealOf<P>;
-  const simd::TriplesStorer<Real, kLanes> a(force, torque_a), b(-force, torque_b);
+  using Storer = simd::QuadStorer<RealOf<P>, kLanes>;
+  const P zero(0);
+  const Storer force_a({force.x, force.y, force.z, zero}), force_b({-force.x, -force.y, -force.z, zero}),
+      turn_a({torque_a.x, torque_a.y, torque_a.z, zero}), turn_b({torque_b.x, torque_b.y, torque_b.z, zero});
   simd::unrolled<kLanes>([&](auto lane) {
     constexpr int i = decltype(lane)::value;
-    a.template store<i>(end_forces + kEndReals<Real> * ends[i].a);
-    b.template store<i>(end_forces + kEndReals<Real> * ends[i].b);
+    RealOf<P>* const a = end_forces + kEndReals * ends[i].a;
+    RealOf<P>* const b = end_forces + kEndReals * ends[i].b;
+    force_a.template store<i>(a);
+    turn_a.template store<i>(a + 4);
+    force_b.template store<i>(b);
+    turn_b.template store<i>(b + 4);
   });
 }
 
@@ -91,7 +97,7 @@ ContactKinematics<P> pair_kinematics(const L& laws, const PairGeometry<P>& g, co
   const bool beyond = laws.cohesion == CohesionLaw::jkr;
   kin.overlap = beyond ? g.overlap : max_of(g.overlap, P(0));
   kin.effective_radius = effective_radius;
-  kin.effective_mass = a.mass * (b.mass / (a.mass + b.mass));  // their product may underflow
+  kin.effective_mass = a.mass * (b.mass * inverse_of(a.mass + b.mass));  // their product may underflow
   kin.normal = g.normal;
   if (laws.cohesion == CohesionLaw::sjkr) {
     kin.area = sphere_sphere_area(g.radius_a, g.radius_b, g.distance, kin.overlap);
@@ -139,7 +145,7 @@ void evaluate_group(const L& laws, const StepView& v, const PairConstants<simd::
   ContactMemory<P> memory{};
   if (laws.tangential == TangentialLaw::mindlin) memory.sliding = load_spring<P>(spring(v.pairs.sliding));
   if (laws.rolling == RollingLaw::epsd2) memory.rolling = load_spring<P>(spring(v.pairs.rolling));
-  const StepConstants<P> step{P(v.dt), P(v.slider_velocity)};
+  const auto step = step_constants<P>(v.dt, v.slider_velocity);
   const ContactForce<P> f = evaluate_contact(laws, kin, c, memory, step);
 
   if (laws.tangential == TangentialLaw::mindlin)

@@ -17,7 +17,7 @@ inline void part_from_wall(WallContact& contact, WallTotals& totals) {
 template <class L, class Real>
 void touch_wall(const L& laws, const StepView& v, WallContact& contact, const ContactKinematics<Real>& kin,
                 const PairConstants<Real>& c, WallTotals& totals) {
-  const StepConstants<Real> step{static_cast<Real>(v.dt), static_cast<Real>(v.slider_velocity)};
+  const auto step = step_constants<Real>(v.dt, v.slider_velocity);
   const ContactMemory<Real> memory{as<Real>(contact.sliding), as<Real>(contact.rolling)};
   const ContactForce<Real> f = evaluate_contact(laws, kin, c, memory, step);
   contact.state = ContactState::touching;

@@ -6,7 +6,9 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <type_traits>
+#include <utility>
 
 #if defined(__SSE2__)
 #include <immintrin.h>
@@ -166,15 +168,50 @@ struct Pack<T, N, true> {
     return condition.lanes ? yes.lanes : no.lanes;
   }
 #endif
+#ifdef INTERSTICE_AVX512
+  /// From an estimate good to 2^-14, improved by Newton's rule: a third of the time of a division, and a unit
+  /// in the last place off at most.
+  static Pack improved_inverse(const Pack& a) {
+    constexpr bool single = std::is_same_v<T, float>;
+    Pack y;
+    if constexpr (single) {
+      y.lanes = _mm512_rcp14_ps(a.lanes);
+    } else {
+      y.lanes = _mm512_rcp14_pd(a.lanes);
+    }
+    for (int i = 0; i < (single ? 1 : 2); ++i) y = y + y * (Pack(1) - a * y);
+    return y;
+  }
+  /// The first improvement of the third order, from 2^-14 to 2^-40.
+  static Pack improved_inverse_root(const Pack& a) {
+    Pack y;
+    if constexpr (std::is_same_v<T, float>) {
+      y.lanes = _mm512_rsqrt14_ps(a.lanes);
+    } else {
+      y.lanes = _mm512_rsqrt14_pd(a.lanes);
+      const Pack off = Pack(1) - a * y * y;
+      y = y + y * off * (Pack(0.5) + Pack(0.375) * off);
+    }
+    return y + Pack(0.5) * y * (Pack(1) - a * y * y);
+  }
+#endif
+  friend Pack inverse_of(const Pack& a) {
+#ifdef INTERSTICE_AVX512
+    if constexpr (sizeof(Lanes) == 64) return improved_inverse(a);
+#endif
+    return Pack(1) / a;
+  }
+  friend Pack inverse_root_of(const Pack& a) {
+#ifdef INTERSTICE_AVX512
+    if constexpr (sizeof(Lanes) == 64) return improved_inverse_root(a);
+#endif
+    return Pack(1) / sqrt_of(a);
+  }
+  /// A unit in the last place off in a whole AVX-512 register, else exact.
   friend Pack sqrt_of(const Pack& a) {
 #ifdef INTERSTICE_AVX512
-    if constexpr (sizeof(Lanes) == 64) {
-      if constexpr (std::is_same_v<T, float>) {
-        return _mm512_sqrt_ps(a.lanes);
-      } else {
-        return _mm512_sqrt_pd(a.lanes);
-      }
-    }
+    if constexpr (sizeof(Lanes) == 64)
+      return a * improved_inverse_root(max_of(a, Pack(std::numeric_limits<T>::min())));
 #endif
     Pack r;  // with -fno-math-errno one instruction
     for (int i = 0; i < N; ++i) r.lanes[i] = std::sqrt(a.lanes[i]);
@@ -218,6 +255,8 @@ struct Pack<T, N, false> {
     return {select(condition.lo, yes.lo, no.lo), select(condition.hi, yes.hi, no.hi)};
   }
   friend Pack sqrt_of(const Pack& a) { return {sqrt_of(a.lo), sqrt_of(a.hi)}; }
+  friend Pack inverse_of(const Pack& a) { return {inverse_of(a.lo), inverse_of(a.hi)}; }
+  friend Pack inverse_root_of(const Pack& a) { return {inverse_root_of(a.lo), inverse_root_of(a.hi)}; }
   template <class F>
   friend Pack each(const Pack& a, const F& f) {
     return {each(a.lo, f), each(a.hi, f)};
@@ -252,23 +291,26 @@ Pack<T, N> sqrt(const Pack<T, N>& a) {
 
 /// As in contact/numeric.h.
 template <class T, int N>
-Pack<T, N> length_of(const Vec3<Pack<T, N>>& v) {
-  if constexpr (std::is_same_v<T, float>) {
-    using P = Pack<T, N>;
-    const P largest = max_of(max_of(abs_of(v.x), abs_of(v.y)), max_of(abs_of(v.z), P(1e-37f)));
-    return largest * norm(P(1) / largest * v);
-  } else {
-    return norm(v);
-  }
+Pack<T, N> inverse_length_of(const Vec3<Pack<T, N>>& v) {
+  return inverse_length<Pack<T, N>, T>(v);
 }
+
+namespace detail {
+template <int first, class V, int... I>
+auto lanes_from(const V& v, std::integer_sequence<int, I...>) {
+  return __builtin_shufflevector(v, v, (first + I)...);
+}
+template <class V, int... I>
+auto joined(const V& lo, const V& hi, std::integer_sequence<int, I...>) {
+  return __builtin_shufflevector(lo, hi, I...);
+}
+}  // namespace detail
 
 /// The first and the last lanes.
 template <class T, int N>
 Pack<T, N / 2> lower_half(const Pack<T, N>& a) {
   if constexpr (kFitsRegister<T, N>) {
-    Pack<T, N / 2> half;
-    __builtin_memcpy(&half.lanes, &a.lanes, sizeof(half.lanes));
-    return half;
+    return detail::lanes_from<0>(a.lanes, std::make_integer_sequence<int, N / 2>{});
   } else {
     return a.lo;
   }
@@ -276,10 +318,7 @@ Pack<T, N / 2> lower_half(const Pack<T, N>& a) {
 template <class T, int N>
 Pack<T, N / 2> upper_half(const Pack<T, N>& a) {
   if constexpr (kFitsRegister<T, N>) {
-    Pack<T, N / 2> half;
-    __builtin_memcpy(&half.lanes, reinterpret_cast<const char*>(&a.lanes) + sizeof(half.lanes),
-                     sizeof(half.lanes));
-    return half;
+    return detail::lanes_from<N / 2>(a.lanes, std::make_integer_sequence<int, N / 2>{});
   } else {
     return a.hi;
   }
@@ -293,15 +332,25 @@ Pack<U, N> converted(const Pack<T, N>& a) {
   } else if constexpr (kFitsRegister<T, N> && kFitsRegister<U, N>) {
     return __builtin_convertvector(a.lanes, typename Pack<U, N>::Lanes);
   } else if constexpr (kFitsRegister<U, N>) {  // two registers of doubles to one of floats
-    const auto lo = converted<U>(a.lo), hi = converted<U>(a.hi);
-    Pack<U, N> joined;
-    __builtin_memcpy(&joined.lanes, &lo.lanes, sizeof(lo.lanes));
-    __builtin_memcpy(reinterpret_cast<char*>(&joined.lanes) + sizeof(lo.lanes), &hi.lanes, sizeof(hi.lanes));
-    return joined;
+    // Not through memory: what is written in two pieces cannot be read as one until it has reached the cache.
+    return detail::joined(converted<U>(a.lo).lanes, converted<U>(a.hi).lanes,
+                          std::make_integer_sequence<int, N>{});
   } else if constexpr (kFitsRegister<T, N>) {
     return {converted<U>(lower_half(a)), converted<U>(upper_half(a))};
   } else {
     return {converted<U>(a.lo), converted<U>(a.hi)};
+  }
+}
+/// Whole numbers as a pack.
+template <class T, int N>
+Pack<T, N> from_counts(const std::uint32_t* counts) {
+  if constexpr (kFitsRegister<T, N>) {
+    typedef std::uint32_t Counts __attribute__((vector_size(N * sizeof(std::uint32_t))));
+    Counts c;
+    __builtin_memcpy(&c, counts, sizeof(c));
+    return __builtin_convertvector(c, typename Pack<T, N>::Lanes);
+  } else {
+    return {from_counts<T, N / 2>(counts), from_counts<T, N / 2>(counts + N / 2)};
   }
 }
 template <class U, class T, int N>

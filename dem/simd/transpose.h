@@ -157,65 +157,73 @@ class QuadLoader {
 #endif
 };
 
-/// Two triples of each row, to be stored side by side: in double close together, in single precision each
-/// with a zero after it.
+/// Puts four numbers of type T, or the first three of them, into each of N rows.
 template <class T, int N>
-class TriplesStorer {
+class QuadStorer {
  public:
 #if defined(__AVX__)
-  TriplesStorer(const Vec3<Pack<T, N>>& first, const Vec3<Pack<T, N>>& second) {
+  explicit QuadStorer(const Quad<Pack<T, N>>& q) {
     unrolled<kRegisters>([&](auto r) {
       using namespace detail;
       constexpr int lane = decltype(r)::value * kNativeLanes<T>;
-      const V a = register_at<lane>(first.x), b = register_at<lane>(first.y), c = register_at<lane>(first.z),
-              x = register_at<lane>(second.x), y = register_at<lane>(second.y),
-              z = register_at<lane>(second.z);
+      const V a = register_at<lane>(q.a), b = register_at<lane>(q.b), c = register_at<lane>(q.c),
+              d = register_at<lane>(q.d);
       if constexpr (sizeof(T) == 8) {
         blocks_[0][0][r] = interleave<T, false>(a, b), blocks_[0][1][r] = interleave<T, true>(a, b);
-        blocks_[1][0][r] = interleave<T, false>(c, x), blocks_[1][1][r] = interleave<T, true>(c, x);
-        blocks_[2][0][r] = interleave<T, false>(y, z), blocks_[2][1][r] = interleave<T, true>(y, z);
+        blocks_[1][0][r] = interleave<T, false>(c, d), blocks_[1][1][r] = interleave<T, true>(c, d);
       } else {
-        fill(0, r, a, b, c);
-        fill(1, r, x, y, z);
+        const V ab01 = interleave<T, false>(a, b), ab23 = interleave<T, true>(a, b);
+        const V cd01 = interleave<T, false>(c, d), cd23 = interleave<T, true>(c, d);
+        blocks_[0][0][r] = interleave<double, false>(ab01, cd01);
+        blocks_[0][1][r] = interleave<double, true>(ab01, cd01);
+        blocks_[0][2][r] = interleave<double, false>(ab23, cd23);
+        blocks_[0][3][r] = interleave<double, true>(ab23, cd23);
       }
     });
   }
   template <int row>
   void store(T* to) const {
-    constexpr int r = row / kNativeLanes<T>, at = row % kNativeLanes<T> / kPerBlock;
     for (int b = 0; b < kBlocks; ++b)
-      _mm_storeu_ps(reinterpret_cast<float*>(to + b * kPerBlock),
-                    detail::block_of<at>(blocks_[b][row % kPerBlock][r]));
+      _mm_storeu_ps(reinterpret_cast<float*>(to + b * kPerBlock), block<row>(b));
+  }
+  /// Leaves what follows the three as it is.
+  template <int row>
+  void store_three(T* to) const {
+    if constexpr (sizeof(T) == 8) {
+      _mm_storeu_ps(reinterpret_cast<float*>(to), block<row>(0));
+      _mm_storel_pd(to + 2, _mm_castps_pd(block<row>(1)));
+    } else {
+      _mm_maskstore_ps(to, _mm_setr_epi32(-1, -1, -1, 0), block<row>(0));
+    }
   }
 
  private:
   using V = typename Pack<T, kNativeLanes<T>>::Lanes;
   static constexpr int kPerBlock = 16 / static_cast<int>(sizeof(T)), kRegisters = N / kNativeLanes<T>;
-  static constexpr int kBlocks = sizeof(T) == 8 ? 3 : 2;
+  static constexpr int kBlocks = sizeof(T) == 8 ? 2 : 1;
 
-  void fill(int block, int r, const V& a, const V& b, const V& c) {
-    using namespace detail;
-    const V ab01 = interleave<T, false>(a, b), ab23 = interleave<T, true>(a, b);
-    const V cd01 = interleave<T, false>(c, V{}), cd23 = interleave<T, true>(c, V{});
-    blocks_[block][0][r] = interleave<double, false>(ab01, cd01);
-    blocks_[block][1][r] = interleave<double, true>(ab01, cd01);
-    blocks_[block][2][r] = interleave<double, false>(ab23, cd23);
-    blocks_[block][3][r] = interleave<double, true>(ab23, cd23);
+  template <int row>
+  __m128 block(int b) const {
+    constexpr int at = row % kNativeLanes<T> / kPerBlock;
+    return detail::block_of<at>(blocks_[b][row % kPerBlock][row / kNativeLanes<T>]);
   }
 
   V blocks_[kBlocks][kPerBlock][kRegisters];
 #else
-  TriplesStorer(const Vec3<Pack<T, N>>& first, const Vec3<Pack<T, N>>& second) {
-    first.x.store(columns_[0]), first.y.store(columns_[1]), first.z.store(columns_[2]);
-    second.x.store(columns_[3]), second.y.store(columns_[4]), second.z.store(columns_[5]);
+  explicit QuadStorer(const Quad<Pack<T, N>>& q) {
+    q.a.store(columns_[0]), q.b.store(columns_[1]), q.c.store(columns_[2]), q.d.store(columns_[3]);
   }
   template <int row>
   void store(T* to) const {
-    for (int j = 0; j < 6; ++j) to[sizeof(T) == 4 && j > 2 ? j + 1 : j] = columns_[j][row];
+    for (int j = 0; j < 4; ++j) to[j] = columns_[j][row];
+  }
+  template <int row>
+  void store_three(T* to) const {
+    for (int j = 0; j < 3; ++j) to[j] = columns_[j][row];
   }
 
  private:
-  T columns_[6][N];
+  T columns_[4][N];
 #endif
 };
 

@@ -1,0 +1,13 @@
+// How many grains, or pairs of grains, are worked on together: a lane of a vector each.
+#pragma once
+
+#include <cstddef>
+
+namespace interstice::dem {
+
+inline constexpr std::size_t kLanes = 16;
+
+/// How many groups of kLanes hold n.
+constexpr std::size_t groups_for(std::size_t n) { return (n + kLanes - 1) / kLanes; }
+
+}  // namespace interstice::dem

@@ -1,0 +1,203 @@
+// The upkeep of lists. Every grain has a reach that it may go before lists are made anew, and two grains are
+// listed where their reaches meet: candidates by a long reach, found by a search in space, and of these the
+// pairs that a step works on by a short one. A reach is made for some number of steps at the grain's own
+// speed, so that a few fast grains above a bed at rest do not cost new lists of the bed. Bits do not depend
+// on any of this, only speed does.
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.h"
+#include "base/parallel.h"
+#include "dem/simulation.h"
+#include "dem/site_order.h"
+
+namespace interstice::dem {
+namespace {
+
+constexpr std::int64_t kRebuildsPerSort = 32;
+constexpr std::size_t kPartsPerThread = 4;
+
+/// Steps for which near pairs shall last, and how many times as long candidates: a refresh takes some five
+/// steps, a search three times that.
+constexpr double kStepsAhead = 150, kCandidatesLast = 4;
+/// A grain may become faster: its reach is so many times what it needs at its present speed.
+constexpr double kHaste = 1.5;
+/// The least and the greatest short reach, in mean diameters: where all is at rest lists need not last
+/// forever, and where grains fly long reaches would list pairs that never touch.
+constexpr double kLeastReach = 0.001, kGreatestReach = 0.05;
+/// The least long reach, in mean diameters.
+constexpr double kLeastCandidateReach = 0.02;
+
+}  // namespace
+
+/// The short reach of something that moves with this speed [m].
+double Simulation::near_reach(double speed) const {
+  if (options_.skin > 0) return options_.skin / (2 * kCandidatesLast);
+  return std::clamp(kHaste * kStepsAhead * dt_ * speed, kLeastReach * mean_diameter_,
+                    kGreatestReach * mean_diameter_);
+}
+
+double Simulation::near_reach_of(std::size_t slot) const {
+  return grains_.with_rows([&](const auto& rows) {
+    const auto& r = rows[slot];
+    return near_reach(std::sqrt(static_cast<double>(r.vx * r.vx + r.vy * r.vy + r.vz * r.vz)));
+  });
+}
+
+double Simulation::candidate_reach_of(std::size_t slot) const {
+  if (options_.skin > 0) return options_.skin / 2;
+  return std::max(kCandidatesLast * near_reach_of(slot), kLeastCandidateReach * mean_diameter_);
+}
+
+/// How far walls may go before those near grains are listed anew [m].
+double Simulation::near_reach_of_walls() const {
+  double fastest = 0;
+  for (const WallMotion& m : motion_of_wall_) fastest = std::max(fastest, norm(m.velocity));
+  return fastest > 0 ? near_reach(fastest) : 0;
+}
+
+double Simulation::wall_travel() const {
+  double farthest = 0;
+  for (std::size_t w = 0; w < walls_.size(); ++w) {
+    const auto corner = [](const Shape& s) {
+      return std::holds_alternative<Plane>(s) ? std::get<Plane>(s).point : std::get<Box>(s).lo;
+    };
+    farthest = std::max(farthest, norm(corner(walls_[w]) - corner(refreshed_walls_[w])));
+  }
+  return farthest;
+}
+
+/// Can no grain leave its long reach before it has used up a new short one?
+bool Simulation::candidates_last() const {
+  const Blocks blocks{grains_.size(), 4096};
+  std::vector<std::uint8_t> over(blocks.count(), 0);
+  for_each_block(blocks, [&](std::size_t b, std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const double moved = norm(grains_.site(i).position() - grains_.labels()[i].built);
+      if (moved + near_reach_of(i) > reach_[i]) over[b] = 1;
+    }
+  });
+  return std::find(over.begin(), over.end(), 1) == over.end();
+}
+
+void Simulation::update_lists() {
+  if (list_valid_ && !strayed_ && wall_travel() <= reach_of_walls_) return;
+  if (list_valid_ && candidates_last()) {
+    refresh({}, grains_.sites());
+  } else {
+    rebuild();
+  }
+}
+
+/// How far bodies act on each other beyond contact [m], at most.
+double Simulation::attraction_reach(double largest) const {
+  double reach = 0;
+  for (const PairConstants<double>& c : constants_) {
+    if (model_.laws.cohesion == CohesionLaw::jkr)  // grows with R*, which is at most the radius (at a wall)
+      reach = std::max(reach, jkr_reach(c.effective_modulus, c.work_of_adhesion, largest));
+    if (model_.laws.cohesion == CohesionLaw::van_der_waals) reach = std::max(reach, c.range);
+  }
+  return reach;
+}
+
+void Simulation::check_periodic_lengths(double largest) const {
+  for (int axis = 0; axis < 3; ++axis) {
+    const double length = model_.domain.hi[axis] - model_.domain.lo[axis];
+    if (model_.boundary[axis] != AxisBoundary::periodic || length > 2 * (2 * largest + attraction_)) continue;
+    throw InputError(
+        "domain.box: the periodic axis " + std::string(1, "xyz"[axis]) +
+        " is shorter than two of the largest grains; make it longer, or the boundary open or a wall");
+  }
+}
+
+/// Now and then, or when grains came or went: neighbours in space beside each other in memory.
+void Simulation::sort_grains(std::vector<GrainSite>& sites) {
+  if (sorted_at_ >= 0 && sites.size() == built_ids_.size() && rebuilds_ - sorted_at_ < kRebuildsPerSort)
+    return;
+  const std::vector<std::uint32_t> order = order_in_space(sites);
+  grains_.take(order);
+  sites = grains_.sites();
+  sorted_at_ = rebuilds_;
+}
+
+void Simulation::rebuild() {
+  std::vector<GrainSite> sites = grains_.sites();
+  double largest = 0, radius_sum = 0;
+  for (const GrainSite& g : sites) largest = std::max(largest, g.radius), radius_sum += g.radius;
+  mean_diameter_ = sites.empty() ? 0 : 2 * radius_sum / static_cast<double>(sites.size());
+  attraction_ = attraction_reach(largest);
+  std::vector<std::uint32_t> slot_of_id(static_cast<std::size_t>(next_id_), PairContacts::kNoSlot);
+  for (std::uint32_t s = 0; s < built_ids_.size(); ++s)
+    slot_of_id[static_cast<std::size_t>(built_ids_[s])] = s;
+  sort_grains(sites);
+  std::vector<std::uint32_t> old_slot(sites.size());
+  for (std::size_t s = 0; s < sites.size(); ++s)
+    old_slot[s] = slot_of_id[static_cast<std::size_t>(sites[s].id)];
+  built_ids_.resize(sites.size());
+  for (std::size_t s = 0; s < sites.size(); ++s) {
+    built_ids_[s] = sites[s].id;
+    grains_.labels()[s].built = sites[s].position();
+  }
+  note_materials();
+  find_candidates(sites);
+  refresh(old_slot, sites);
+  list_valid_ = true;
+  ++rebuilds_;
+}
+
+void Simulation::note_materials() {
+  grains_.with_rows([&](const auto& rows) {
+    only_material_ = rows.empty() ? 0 : static_cast<std::int64_t>(rows[0].material);
+    for (std::size_t s = 0; s < grains_.size(); ++s)
+      if (rows[s].material != only_material_) only_material_ = -1;
+  });
+}
+
+void Simulation::find_candidates(const std::vector<GrainSite>& sites) {
+  std::vector<GrainSite> reaching = sites;
+  reach_.resize(sites.size());
+  double largest = 0;
+  for (std::size_t s = 0; s < sites.size(); ++s) {
+    reach_[s] = candidate_reach_of(s);
+    reaching[s].radius += reach_[s];
+    largest = std::max(largest, reaching[s].radius);
+  }
+  check_periodic_lengths(largest);
+  SearchSpace space = search_space();
+  space.skin = attraction_;
+  candidates_ = options_.reference ? find_pairs_brute_force(reaching, space) : find_pairs(reaching, space);
+}
+
+/// Of the candidates those whose short reaches meet; and the walls near grains.
+void Simulation::refresh(const std::vector<std::uint32_t>& old_slot, const std::vector<GrainSite>& sites) {
+  SearchSpace space = search_space();
+  space.skin = attraction_;
+  std::vector<GrainSite> reaching = sites;
+  path_left_.assign(groups_for(sites.size()) * kLanes, 0);
+  for (std::size_t s = 0; s < sites.size(); ++s) {
+    path_left_[s] = near_reach_of(s);
+    reaching[s].radius += path_left_[s];
+  }
+  const Blocks blocks{candidates_.size(), 4096};
+  std::vector<std::vector<PairRef>> near(blocks.count());
+  for_each_block(blocks, [&](std::size_t b, std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k)
+      if (are_near(reaching[candidates_[k].a], reaching[candidates_[k].b], space))
+        near[b].push_back(candidates_[k]);
+  });
+  std::vector<PairRef> pairs;
+  pairs.reserve(candidates_.size());
+  for (const auto& n : near) pairs.insert(pairs.end(), n.begin(), n.end());
+  pair_contacts_.replace(pairs, sites, old_slot, parts());
+  reach_of_walls_ = near_reach_of_walls();
+  wall_contacts_.replace(reaching, walls_, reach_of_walls_ + attraction_, old_slot);
+  refreshed_walls_ = walls_;
+  strayed_ = false;
+}
+
+/// One part for one thread; several a thread else, so that the fastest does not wait for the slowest.
+Parts Simulation::parts() const {
+  return {grains_.size(), options_.reference || threads() == 1 ? 1 : kPartsPerThread * threads()};
+}
+
+}  // namespace interstice::dem
