@@ -226,6 +226,7 @@ void WallContacts::replace(const std::vector<GrainSite>& sites, const std::vecto
             if (old.wall == w) contact = old;
           }
         }
+        contact.slot = static_cast<std::uint32_t>(s);
         found[b].push_back(contact);
         ++count[s + 1];
       }

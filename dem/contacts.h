@@ -151,12 +151,21 @@ class PairContacts {
 
 /// A grain near a wall.
 struct WallContact {
-  std::uint32_t wall;
+  std::uint32_t slot, wall;
   ContactState state = ContactState::apart;
   TangentialSpring<double> sliding, rolling;  // zero unless touching
   Vec3d force;                                // on the grain, valid unless apart [N]
 
   bool touching() const { return state == ContactState::touching; }
+};
+
+/// What a wall did to a grain in a step.
+struct WallEffect {
+  Vec3d force{0, 0, 0};   // [N]
+  double power = 0;       // of the wall's motion [W]; this and the heat only with energies
+  Vec3d torque{0, 0, 0};  // [N m]
+  double unused = 0;
+  PairHeat heat;
 };
 
 class WallContacts {
@@ -173,11 +182,8 @@ class WallContacts {
     return {entries.data() + first_[slot], entries.data() + first_[slot + 1]};
   }
 
-  /// Is no wall near any of the grains in slots [begin, end)?
-  bool none_in(std::size_t begin, std::size_t end) const {
-    const auto before = [&](std::size_t slot) { return first_[std::min(slot, first_.size() - 1)]; };
-    return before(begin) == before(end);
-  }
+  /// Entries of the grains in slots before this one.
+  std::size_t before(std::size_t slot) const { return first_[std::min(slot, first_.size() - 1)]; }
 
   std::size_t bytes() const;
 

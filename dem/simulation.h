@@ -138,11 +138,10 @@ class Simulation {
   StepView step_view(const PairView& pairs) const;
   void count_inserted_contacts();
   double inserted_on_wall(const GrainRow& grain, const WallContact& contact) const;
-  template <class Real>
-  void add_walls(const StepView& view, const PairRow<Real>* rows, std::size_t group, Vec3<Each>& force,
-                 Vec3<Each>& torque);
+  void evaluate_walls(const StepView& view, std::size_t begin, std::size_t end);
+  void add_walls(std::size_t group, Vec3<Each>& force, Vec3<Each>& torque);
   void add_lifting(std::size_t first, const Vec3<Each>& step);
-  void add_heat(std::size_t i, const WallTotals& walls);
+  void add_heat(std::size_t i);
   std::size_t id_of(std::size_t slot) const { return static_cast<std::size_t>(grains_.labels()[slot].id); }
   void note_leaver(std::size_t i);
 
@@ -160,6 +159,7 @@ class Simulation {
   std::int64_t only_material_ = -1;  // of all grains when the list was built; -1 where they differ
   PairContacts pair_contacts_;
   WallContacts wall_contacts_;
+  std::vector<WallEffect> wall_effects_;  // by entry of wall_contacts_
 
   std::int64_t step_ = 0;
   std::int64_t next_id_ = 0;

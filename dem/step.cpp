@@ -117,6 +117,7 @@ void Simulation::evaluate_and_move(PairRow<Real>* rows, bool begin_next) {
   const StepView shared = step_view(pair_contacts_.shared_view()), view = step_view(pair_contacts_.view());
   const Sweep& sweep = pair_contacts_.sweep();
   std::vector<PassReport> reports(sweep.parts.blocks());
+  wall_effects_.resize(wall_contacts_.entries.size());
   for_blocks({sweep.shared_groups, kGroupsPerTask}, [&](std::size_t, std::size_t begin, std::size_t end) {
     kernels_.pairs(model_.laws, shared, begin, end);
   });
@@ -128,7 +129,9 @@ void Simulation::evaluate_and_move(PairRow<Real>* rows, bool begin_next) {
       kernels_.pairs(model_.laws, view, group, sweep.done_before[b]);
       group = sweep.done_before[b];
       pair_contacts_.fetch_shared(b);
-      reports[b] = move_rows(rows, view, sweep.parts.begin_row(b), sweep.parts.end_row(b), begin_next);
+      const std::size_t begin = sweep.parts.begin_row(b), end = sweep.parts.end_row(b);
+      evaluate_walls(view, begin, end);
+      reports[b] = move_rows(rows, view, begin, end, begin_next);
     }
   };
   if (options_.reference || sweep.parts.count() == 1) {
@@ -144,36 +147,34 @@ void Simulation::evaluate_and_move(PairRow<Real>* rows, bool begin_next) {
   if (begin_next) take_report(reports);
 }
 
-/// Adds what walls do to the grains of a group, and with energies counts their heat.
-template <class Real>
-void Simulation::add_walls(const StepView& view, const PairRow<Real>* rows, std::size_t group,
-                           Vec3<Each>& force, Vec3<Each>& torque) {
+/// What walls do to the grains in slots [begin, end).
+void Simulation::evaluate_walls(const StepView& view, std::size_t begin, std::size_t end) {
+  const std::size_t first = wall_contacts_.before(begin), count = wall_contacts_.before(end) - first;
+  if (count > 0)
+    kernels_.walls(model_.laws, view, {wall_contacts_.entries.data() + first, count},
+                   wall_effects_.data() + first);
+}
+
+/// Adds what walls do to the grains of a group, and with energies counts the heat of its contacts.
+void Simulation::add_walls(std::size_t group, Vec3<Each>& force, Vec3<Each>& torque) {
   const std::size_t first = group * kLanes, end = std::min(grains_.size(), first + kLanes);
-  if (wall_contacts_.none_in(first, end) && !options_.energies) return;
-  const auto d = [](Real value) { return static_cast<double>(value); };
-  double forces[3][kLanes], torques[3][kLanes];
-  store(force, forces[0], forces[1], forces[2]);
-  store(torque, torques[0], torques[1], torques[2]);
-  for (std::size_t i = first; i < end; ++i) {
-    const std::span<WallContact> walls = wall_contacts_.of(i);
-    if (walls.empty() && !options_.energies) continue;
-    const PairRow<Real>& row = rows[i];
-    const WallGrain grain{row.position(),
-                          {d(row.vx), d(row.vy), d(row.vz)},
-                          {d(row.wx), d(row.wy), d(row.wz)},
-                          row.radius,
-                          d(row.mass),
-                          row.material};
-    WallTotals totals;
-    kernels_.walls(model_.laws, view, grain, walls, totals);
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      forces[axis][i - first] += totals.force[static_cast<int>(axis)];
-      torques[axis][i - first] += totals.torque[static_cast<int>(axis)];
+  const std::size_t from = wall_contacts_.before(first), to = wall_contacts_.before(end);
+  if (from != to) {
+    double forces[3][kLanes], torques[3][kLanes];
+    store(force, forces[0], forces[1], forces[2]);
+    store(torque, torques[0], torques[1], torques[2]);
+    for (std::size_t k = from; k < to; ++k) {
+      const std::size_t lane = wall_contacts_.entries[k].slot - first;
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        forces[axis][lane] += wall_effects_[k].force[static_cast<int>(axis)];
+        torques[axis][lane] += wall_effects_[k].torque[static_cast<int>(axis)];
+      }
     }
-    if (options_.energies) add_heat(i, totals);
+    force = load(forces[0], forces[1], forces[2]);
+    torque = load(torques[0], torques[1], torques[2]);
   }
-  force = load(forces[0], forces[1], forces[2]);
-  torque = load(torques[0], torques[1], torques[2]);
+  if (options_.energies)
+    for (std::size_t i = first; i < end; ++i) add_heat(i);
 }
 
 /// Collects the forces of some grains, completes their velocities, and begins the next step.
@@ -187,7 +188,7 @@ template <class Real>
   for (std::size_t g = begin / kLanes; g < groups_for(end); ++g) {
     const auto sums = end_sums(ends, pair_contacts_.end_rows(g), pair_contacts_.end_counts() + g * kLanes);
     Vec3<Each> force = simd::converted<double>(sums.force), torque = simd::converted<double>(sums.torque);
-    add_walls(view, rows, g, force, torque);
+    add_walls(g, force, torque);
     GroupMotion& m = grains_.motions()[g];
     GroupState now;
     now.acceleration = gravity + Each::load(m.inverse_mass) * force;

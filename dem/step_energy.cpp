@@ -15,15 +15,19 @@ void Simulation::add_lifting(std::size_t first, const Vec3<Each>& step) {
 }
 
 /// Half of each pair's heat to each of its grains; the work of walls by the trapezoidal rule.
-void Simulation::add_heat(std::size_t i, const WallTotals& walls) {
+void Simulation::add_heat(std::size_t i) {
   GrainEnergy& e = energies_[id_of(i)];
   for (const Adjacent& partner : pair_contacts_.of(i)) {
     const PairHeat& heat = pair_contacts_.heat(partner.pair);
     e.heat += {0.5 * heat.damping, 0.5 * heat.sliding, 0.5 * heat.rolling, 0.5 * heat.adhesion};
   }
-  e.heat += walls.heat;
-  e.walls += 0.5 * dt_ * (e.wall_power + walls.power);
-  e.wall_power = walls.power;
+  double power = 0;
+  for (std::size_t k = wall_contacts_.before(i); k < wall_contacts_.before(i + 1); ++k) {
+    e.heat += wall_effects_[k].heat;
+    power += wall_effects_[k].power;
+  }
+  e.walls += 0.5 * dt_ * (e.wall_power + power);
+  e.wall_power = power;
 }
 
 /// The elastic energy of a grain that overlaps a wall when it is inserted [J].

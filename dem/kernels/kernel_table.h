@@ -19,12 +19,12 @@ void pairs_entry(const Laws& chosen, const StepView& v, std::size_t begin, std::
 }
 
 template <class L, class Real>
-void walls_entry(const Laws& chosen, const StepView& v, const WallGrain& grain,
-                 std::span<WallContact> contacts, WallTotals& totals) {
+void walls_entry(const Laws& chosen, const StepView& v, std::span<WallContact> contacts,
+                 WallEffect* effects) {
   if constexpr (std::is_same_v<L, Laws>) {
-    evaluate_walls<Laws, Real>(chosen, v, grain, contacts, totals);
+    evaluate_walls<Laws, Real>(chosen, v, contacts, effects);
   } else {
-    evaluate_walls<L, Real>(L{}, v, grain, contacts, totals);
+    evaluate_walls<L, Real>(L{}, v, contacts, effects);
   }
 }
 

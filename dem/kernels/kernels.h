@@ -28,25 +28,11 @@ struct StepView {
   const Wall* wall_models;
 };
 
-/// A grain as walls see it.
-struct WallGrain {
-  Vec3d position, velocity, spin;
-  double radius, mass;
-  std::size_t material;
-};
-
-/// What walls do to one grain in a step.
-struct WallTotals {
-  Vec3d force{0, 0, 0}, torque{0, 0, 0};  // [N], [N m]
-  PairHeat heat;                          // [J]
-  double power = 0;                       // of the walls' motion [W]
-};
-
 struct ForceKernels {
   /// Evaluates the groups of pairs [begin, end).
   void (*pairs)(const Laws&, const StepView&, std::size_t begin, std::size_t end);
-  /// Evaluates one grain's wall contacts.
-  void (*walls)(const Laws&, const StepView&, const WallGrain&, std::span<WallContact>, WallTotals&);
+  /// Evaluates contacts with walls; an effect each.
+  void (*walls)(const Laws&, const StepView&, std::span<WallContact>, WallEffect*);
   bool generic;  // laws chosen at run time
 };
 

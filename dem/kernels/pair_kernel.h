@@ -2,41 +2,10 @@
 // pair is a mask or a select, so that a pair's bits do not depend on its neighbours in the list.
 #pragma once
 
-#include <bit>
-
-#include "dem/kernels/geometry.h"
-#include "dem/kernels/pair_rows.h"
+#include "dem/kernels/contact_group.h"
+#include "dem/kernels/rows.h"
 
 namespace interstice::dem {
-
-/// Which pairs of a group do what in this step, a bit a pair.
-struct PairStates {
-  std::uint32_t before;      // touching after the last step
-  std::uint32_t touching;    // now
-  std::uint32_t torn;        // necks that tear now
-  std::uint32_t attracting;  // across a gap
-  std::uint32_t parted;      // had a memory that is lost now
-};
-
-template <class L, class P>
-PairStates pair_states(const L& laws, const GroupBits& bits, const PairGeometry<P>& g,
-                       const PairConstants<P>& c, const P& effective_radius, P& attraction) {
-  PairStates s{};
-  s.before = bits.touching;
-  const std::uint32_t overlapping = (g.overlap > P(0)).bits() & bits.listed;
-  s.touching = overlapping;
-  if (laws.cohesion == CohesionLaw::jkr) {
-    const std::uint32_t necks = bits.touching & ~overlapping;
-    const std::uint32_t holding = necks != 0 ? neck_holds(c, effective_radius, g.overlap).bits() & necks : 0;
-    s.touching |= holding;
-    s.torn = necks & ~holding;
-  } else if (laws.cohesion == CohesionLaw::van_der_waals) {
-    attraction = van_der_waals_attraction(c.hamaker_constant, c.cutoff, c.range, effective_radius, g.overlap);
-    s.attracting = (attraction > P(0)).bits() & bits.listed & ~overlapping;
-  }
-  s.parted = (s.before | bits.attracting) & ~s.touching;
-  return s;
-}
 
 /// Springs of a group, by number and lane.
 template <class P>
@@ -70,29 +39,10 @@ void store_ends(const PairEnds* ends, const Vec3<P>& force, const Vec3<P>& torqu
   });
 }
 
-template <class P>
-void store_heat(const PairStates& s, const ContactForce<P>& f, const TangentialSpring<P>& sliding,
-                const TangentialSpring<P>& rolling, const P& torn, PairHeat* heat) {
-  using M = typename P::M;
-  const M touching = M::from_bits(s.touching), parted = M::from_bits(s.parted);
-  const P lost_sliding = select(parted, spring_energy(sliding), P(0));
-  const P lost_rolling = select(parted, spring_energy(rolling), P(0));
-  const P adhesion = select(M::from_bits(s.torn), torn, P(0));
-  RealOf<P> columns[4][kLanes];
-  select(touching, f.heat.damping, P(0)).store(columns[0]);
-  select(touching, f.heat.sliding, lost_sliding).store(columns[1]);
-  select(touching, f.heat.rolling, lost_rolling).store(columns[2]);
-  adhesion.store(columns[3]);
-  for (std::size_t i = 0; i < kLanes; ++i) {
-    heat[i] = {static_cast<double>(columns[0][i]), static_cast<double>(columns[1][i]),
-               static_cast<double>(columns[2][i]), static_cast<double>(columns[3][i])};
-  }
-}
-
 /// How the surfaces of a group's grains move against each other.
 template <class L, class P>
-ContactKinematics<P> pair_kinematics(const L& laws, const PairGeometry<P>& g, const PairRows<P>& a,
-                                     const PairRows<P>& b, const P& effective_radius, P& arm_a, P& arm_b) {
+ContactKinematics<P> pair_kinematics(const L& laws, const PairGeometry<P>& g, const GrainRows<P>& a,
+                                     const GrainRows<P>& b, const P& effective_radius, P& arm_a, P& arm_b) {
   ContactKinematics<P> kin;
   const bool beyond = laws.cohesion == CohesionLaw::jkr;
   kin.overlap = beyond ? g.overlap : max_of(g.overlap, P(0));
@@ -123,20 +73,23 @@ void evaluate_group(const L& laws, const StepView& v, const PairConstants<simd::
   const std::size_t first = group * kLanes;
   GroupBits& bits = v.pairs.bits[group];
   const PairRef* pairs = v.pairs.pairs + first;
-  const PairRows<P> a = load_rows<&PairRef::a, P>(v, pairs), b = load_rows<&PairRef::b, P>(v, pairs);
+  const GrainRows<P> a = load_rows<P>(v, [&](int lane) { return pairs[lane].a; }),
+                     b = load_rows<P>(v, [&](int lane) { return pairs[lane].b; });
   const PairGeometry<P> g = pair_geometry<P>(a.position, a.radius, b.position, b.radius, v.period);
-  const bool near_only = laws.cohesion != CohesionLaw::van_der_waals;
-  if (near_only && bits.touching == 0 && ((g.overlap > P(0)).bits() & bits.listed) == 0) {
+  if (stay_apart(laws, bits, g.overlap)) {
     const Vec3<P> none{P(0), P(0), P(0)};
     store_ends(v.pairs.ends + first, none, none, none, static_cast<Real*>(v.pairs.end_forces));
     if (v.pairs.forces) std::fill_n(static_cast<Real*>(v.pairs.forces) + 3 * first, 3 * kLanes, Real(0));
     if (v.pairs.heat) std::fill_n(v.pairs.heat + first, kLanes, PairHeat{});
     return;  // still apart
   }
-  const PairConstants<P> c = only ? *only : constants_of_group<Real>(v, pairs);
+  const PairConstants<P> c = only ? *only : load_constants<Real>([&](int lane) -> const PairConstants<Real>& {
+    const auto* rows = static_cast<const PairRow<Real>*>(v.rows);
+    return constants_of<Real>(v, rows[pairs[lane].a].material, rows[pairs[lane].b].material);
+  });
   const P effective_radius = g.radius_a * g.radius_b * g.inverse_reach;
   P attraction(0);
-  const PairStates s = pair_states(laws, bits, g, c, effective_radius, attraction);
+  const ContactStates s = contact_states(laws, bits, g.overlap, c, effective_radius, attraction);
   const M touching = M::from_bits(s.touching);
 
   P arm_a, arm_b;
@@ -167,9 +120,9 @@ void evaluate_group(const L& laws, const StepView& v, const PairConstants<simd::
     Real* const forces = static_cast<Real*>(v.pairs.forces) + 3 * first;
     force.x.store(forces), force.y.store(forces + kLanes), force.z.store(forces + 2 * kLanes);
   }
-  if (v.pairs.heat) {
+  if constexpr (kCountsHeat<L>) {
     const P torn = s.torn != 0 ? tear_heat(c, effective_radius) : P(0);
-    store_heat(s, f, memory.sliding, memory.rolling, torn, v.pairs.heat + first);
+    if (v.pairs.heat) store_heat(s, f, memory, torn, v.pairs.heat + first);
   }
   bits.touching = static_cast<std::uint16_t>(s.touching);
   bits.attracting = static_cast<std::uint16_t>(s.attracting);

@@ -1,82 +1,177 @@
-// One grain's contacts with walls, for any laws and number type. A wall is flat and heavy: R* = R, m* = m.
+// The loop over groups of contacts with walls, for any laws and number type: a contact a lane. A wall is flat
+// and heavy: R* = R, m* = m.
 #pragma once
 
-#include "dem/kernels/geometry.h"
+#include "dem/kernels/contact_group.h"
+#include "dem/kernels/rows.h"
 #include "dem/wall_distance.h"
 
 namespace interstice::dem {
 
-inline void part_from_wall(WallContact& contact, WallTotals& totals) {
-  if (contact.state == ContactState::apart) return;
-  totals.heat += {0, spring_energy(contact.sliding), spring_energy(contact.rolling), 0};
-  contact.state = ContactState::apart;
-  contact.sliding = {};
-  contact.rolling = {};
+/// How the grains of a group stand to their walls, and how these move.
+template <class P>
+struct WallGeometry {
+  simd::Pack<double, kLanes> distance;  // [m]
+  Vec3<P> normal, velocity;
+};
+
+template <class P>
+WallGeometry<P> wall_geometry(const StepView& v, const WallContact* contacts, std::size_t count,
+                              const Vec3<simd::Pack<double, kLanes>>& position) {
+  using D = simd::Pack<double, kLanes>;
+  double at[3][kLanes], distance[kLanes], normal[3][kLanes], velocity[3][kLanes];
+  position.x.store(at[0]), position.y.store(at[1]), position.z.store(at[2]);
+  for (std::size_t i = 0; i < kLanes; ++i) {
+    const std::uint32_t wall = contacts[std::min(i, count - 1)].wall;
+    const WallDistance surface = wall_distance(v.walls[wall], {at[0][i], at[1][i], at[2][i]});
+    distance[i] = surface.distance;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      normal[axis][i] = surface.normal[static_cast<int>(axis)];
+      velocity[axis][i] = v.wall_velocities[wall][static_cast<int>(axis)];
+    }
+  }
+  const auto vector = [](const double(&columns)[3][kLanes]) {
+    return simd::converted<RealOf<P>>(Vec3<D>{D::load(columns[0]), D::load(columns[1]), D::load(columns[2])});
+  };
+  return {D::load(distance), vector(normal), vector(velocity)};
 }
 
-template <class L, class Real>
-void touch_wall(const L& laws, const StepView& v, WallContact& contact, const ContactKinematics<Real>& kin,
-                const PairConstants<Real>& c, WallTotals& totals) {
-  const auto step = step_constants<Real>(v.dt, v.slider_velocity);
-  const ContactMemory<Real> memory{as<Real>(contact.sliding), as<Real>(contact.rolling)};
-  const ContactForce<Real> f = evaluate_contact(laws, kin, c, memory, step);
-  contact.state = ContactState::touching;
-  contact.force = as_double(f.force);
-  if (laws.tangential == TangentialLaw::mindlin) contact.sliding = as_double(f.memory.sliding);
-  if (laws.rolling == RollingLaw::epsd2) contact.rolling = as_double(f.memory.rolling);
-  totals.force += contact.force;
-  if (laws.tangential != TangentialLaw::none || laws.rolling != RollingLaw::none) {
-    const double arm = static_cast<double>(kin.effective_radius) - static_cast<double>(kin.overlap);
-    totals.torque += as_double(f.rolling_torque) - arm * as_double(cross(kin.normal, f.tangential));
+template <class At>
+GroupBits bits_of(const At& contact_at) {
+  GroupBits bits;
+  bits.listed = static_cast<std::uint16_t>(-1);
+  for (int i = 0; i < static_cast<int>(kLanes); ++i) {
+    const auto bit = static_cast<std::uint16_t>(1u << i);
+    if (contact_at(i).state == ContactState::touching) bits.touching |= bit;
+    if (contact_at(i).state == ContactState::attracting) bits.attracting |= bit;
   }
-  totals.heat += {static_cast<double>(f.heat.damping), static_cast<double>(f.heat.sliding),
-                  static_cast<double>(f.heat.rolling), 0};
+  return bits;
 }
 
-template <class L, class Real>
-void evaluate_wall(const L& laws, const StepView& v, const WallGrain& g, WallContact& contact,
-                   WallTotals& totals) {
-  const WallDistance surface = wall_distance(v.walls[contact.wall], g.position);
-  const bool overlap = surface.distance < g.radius;
-  const bool necked = laws.cohesion == CohesionLaw::jkr && contact.state == ContactState::touching;
-  if (!overlap && !necked && laws.cohesion != CohesionLaw::van_der_waals)
-    return part_from_wall(contact, totals);
+/// A spring that a contact keeps in double.
+template <TangentialSpring<double> WallContact::*spring, class P, class At>
+TangentialSpring<P> load_wall_spring(const At& contact_at) {
+  simd::QuadLoader<double, kLanes> loader;
+  simd::unrolled<kLanes>([&](auto lane) {
+    constexpr int i = decltype(lane)::value;
+    loader.template load<i>(reinterpret_cast<const std::byte*>(&(contact_at(i).*spring)));
+  });
+  const auto q = loader.quad();
+  using Real = RealOf<P>;
+  return {simd::converted<Real>(Vec3<simd::Pack<double, kLanes>>{q.a, q.b, q.c}), simd::converted<Real>(q.d)};
+}
+template <TangentialSpring<double> WallContact::*spring, class P, class At>
+void store_wall_spring(const TangentialSpring<P>& s, const typename P::M& kept, const At& contact_at) {
+  const auto d = [&](const P& number) { return simd::converted<double>(select(kept, number, P(0))); };
+  const simd::QuadStorer<double, kLanes> storer({d(s.force.x), d(s.force.y), d(s.force.z), d(s.stiffness)});
+  simd::unrolled<kLanes>([&](auto lane) {
+    constexpr int i = decltype(lane)::value;
+    storer.template store<i>(&(contact_at(i).*spring).force.x);
+  });
+}
 
-  const PairConstants<Real>& c = constants_of<Real>(v, g.material, v.wall_models[contact.wall].material);
-  const Vec3d wall_velocity = v.wall_velocities[contact.wall];
-  ContactKinematics<Real> kin;
-  kin.overlap = static_cast<Real>(g.radius - surface.distance);
-  kin.effective_radius = static_cast<Real>(g.radius);
-  if (!overlap && necked && !neck_holds(c, kin.effective_radius, kin.overlap)) {
-    totals.heat.adhesion += static_cast<double>(tear_heat(c, kin.effective_radius));
-    return part_from_wall(contact, totals);
+template <class P, class To>
+void store_vectors(const Vec3<P>& v, const To& to) {
+  const auto d = simd::converted<double>(v);
+  const simd::QuadStorer<double, kLanes> storer({d.x, d.y, d.z, simd::Pack<double, kLanes>(0)});
+  simd::unrolled<kLanes>([&](auto lane) {
+    constexpr int i = decltype(lane)::value;
+    storer.template store_three<i>(&to(i).x);
+  });
+}
+
+inline void set_states(const ContactStates& s, WallContact* contacts, std::size_t count) {
+  for (std::size_t i = 0; i < count; ++i) {
+    contacts[i].state = s.touching >> i & 1     ? ContactState::touching
+                        : s.attracting >> i & 1 ? ContactState::attracting
+                                                : ContactState::apart;
   }
-  if (!overlap && laws.cohesion == CohesionLaw::van_der_waals) {
-    part_from_wall(contact, totals);
-    const double attraction = static_cast<double>(
-        van_der_waals_attraction(c.hamaker_constant, c.cutoff, c.range, kin.effective_radius, kin.overlap));
-    if (!(attraction > 0)) return;
-    contact.state = ContactState::attracting;
-    contact.force = -attraction * surface.normal;
-    totals.force += contact.force;
-    totals.power += dot(contact.force, wall_velocity);
+}
+
+/// Lanes beyond `count` <= kLanes repeat the last contact in everything: what they store is what that stores.
+template <class L, class Real>
+void evaluate_wall_group(const L& laws, const StepView& v, WallContact* contacts, std::size_t count,
+                         WallEffect* effects) {
+  using P = simd::Pack<Real, kLanes>;
+  using M = typename P::M;
+  const auto contact_at = [&](int lane) -> WallContact& {
+    return contacts[std::min(static_cast<std::size_t>(lane), count - 1)];
+  };
+  const auto effect_at = [&](int lane) -> WallEffect& {
+    return effects[std::min(static_cast<std::size_t>(lane), count - 1)];
+  };
+  const GrainRows<P> grain = load_rows<P>(v, [&](int lane) { return contact_at(lane).slot; });
+  const WallGeometry<P> wall = wall_geometry<P>(v, contacts, count, grain.position);
+  const P overlap = simd::converted<Real>(grain.radius - wall.distance),
+          radius = simd::converted<Real>(grain.radius);
+  const GroupBits bits = bits_of(contact_at);
+  if (stay_apart(laws, bits, overlap)) {
+    std::fill_n(effects, count, WallEffect{});
     return;
   }
-  kin.normal = as<Real>(surface.normal);
-  kin.effective_mass = static_cast<Real>(g.mass);
-  if (laws.cohesion == CohesionLaw::sjkr) kin.area = sphere_plane_area(kin.effective_radius, kin.overlap);
-  Vec3d velocity = g.velocity - wall_velocity;
-  if (laws.tangential != TangentialLaw::none) velocity -= cross(surface.distance * g.spin, surface.normal);
-  kin.velocity = as<Real>(velocity);
-  if (laws.rolling != RollingLaw::none) kin.relative_spin = as<Real>(g.spin);
-  touch_wall(laws, v, contact, kin, c, totals);
-  totals.power += dot(contact.force, wall_velocity);
+  const PairConstants<P> c = load_constants<Real>([&](int lane) -> const PairConstants<Real>& {
+    const WallContact& contact = contact_at(lane);
+    const auto* rows = static_cast<const PairRow<Real>*>(v.rows);
+    return constants_of<Real>(v, rows[contact.slot].material, v.wall_models[contact.wall].material);
+  });
+  P attraction(0);
+  const ContactStates s = contact_states(laws, bits, overlap, c, radius, attraction);
+  const M touching = M::from_bits(s.touching);
+
+  ContactKinematics<P> kin{};
+  kin.overlap = laws.cohesion == CohesionLaw::jkr ? overlap : max_of(overlap, P(0));
+  kin.effective_radius = radius;
+  kin.effective_mass = grain.mass;
+  kin.normal = wall.normal;
+  if (laws.cohesion == CohesionLaw::sjkr) kin.area = sphere_plane_area(radius, kin.overlap);
+  const P arm = radius - kin.overlap;
+  kin.velocity = grain.velocity - wall.velocity;
+  kin.relative_spin = grain.spin;
+  if (laws.tangential != TangentialLaw::none)
+    kin.velocity = kin.velocity - cross(arm * grain.spin, wall.normal);
+
+  ContactMemory<P> memory{};
+  if (laws.tangential == TangentialLaw::mindlin)
+    memory.sliding = load_wall_spring<&WallContact::sliding, P>(contact_at);
+  if (laws.rolling == RollingLaw::epsd2)
+    memory.rolling = load_wall_spring<&WallContact::rolling, P>(contact_at);
+  const ContactForce<P> f =
+      evaluate_contact(laws, kin, c, memory, step_constants<P>(v.dt, v.slider_velocity));
+  if (laws.tangential == TangentialLaw::mindlin)
+    store_wall_spring<&WallContact::sliding>(f.memory.sliding, touching, contact_at);
+  if (laws.rolling == RollingLaw::epsd2)
+    store_wall_spring<&WallContact::rolling>(f.memory.rolling, touching, contact_at);
+
+  const Vec3<P> none{P(0), P(0), P(0)};
+  Vec3<P> across = none, torque = none;
+  if (laws.cohesion == CohesionLaw::van_der_waals)
+    across = select(M::from_bits(s.attracting), -attraction * wall.normal, none);
+  if (laws.tangential != TangentialLaw::none || laws.rolling != RollingLaw::none)
+    torque = select(touching, f.rolling_torque - arm * cross(wall.normal, f.tangential), none);
+  const Vec3<P> force = select(touching, f.force, across);
+  store_vectors(force, [&](int lane) -> Vec3d& { return contact_at(lane).force; });
+  store_vectors(force, [&](int lane) -> Vec3d& { return effect_at(lane).force; });
+  store_vectors(torque, [&](int lane) -> Vec3d& { return effect_at(lane).torque; });
+  set_states(s, contacts, count);
+  if constexpr (kCountsHeat<L>) {
+    PairHeat heat[kLanes];
+    const P torn = s.torn != 0 ? tear_heat(c, radius) : P(0);
+    store_heat(s, f, memory, torn, heat);
+    for (std::size_t i = 0; i < count; ++i) {
+      effects[i].heat = heat[i];
+      effects[i].power = dot(effects[i].force, v.wall_velocities[contacts[i].wall]);
+    }
+  }
 }
 
 template <class L, class Real>
-void evaluate_walls(const L& laws, const StepView& v, const WallGrain& grain, std::span<WallContact> contacts,
-                    WallTotals& totals) {
-  for (WallContact& contact : contacts) evaluate_wall<L, Real>(laws, v, grain, contact, totals);
+[[gnu::flatten]] void evaluate_walls(const L& laws, const StepView& v, std::span<WallContact> contacts,
+                                     WallEffect* effects) {
+  const simd::FlushTinyNumbers flush;
+  for (std::size_t first = 0; first < contacts.size(); first += kLanes) {
+    evaluate_wall_group<L, Real>(laws, v, contacts.data() + first, std::min(kLanes, contacts.size() - first),
+                                 effects + first);
+  }
 }
 
 }  // namespace interstice::dem

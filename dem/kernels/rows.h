@@ -1,4 +1,4 @@
-// What a group of pairs reads of its grains: rows of memory turned into lanes.
+// What a group of contacts reads of its grains and materials: rows of memory turned into lanes.
 #pragma once
 
 #include <cstddef>
@@ -9,18 +9,18 @@
 
 namespace interstice::dem {
 
-/// One grain of each pair.
+/// A grain of each contact.
 template <class P>
-struct PairRows {
+struct GrainRows {
   Vec3<simd::Pack<double, kLanes>> position;
   simd::Pack<double, kLanes> radius;  // as exact as the positions
   Vec3<P> velocity, spin;
   P mass;
 };
 
-/// The first (second) grains of a group.
-template <std::uint32_t PairRef::*which, class P>
-PairRows<P> load_rows(const StepView& v, const PairRef* pairs) {
+/// The grains in the slots slot_at(0), slot_at(1), ...
+template <class P, class SlotAt>
+GrainRows<P> load_rows(const StepView& v, const SlotAt& slot_at) {
   using Real = RealOf<P>;
   using Row = PairRow<Real>;
   const auto* rows = static_cast<const std::byte*>(v.rows);
@@ -28,7 +28,7 @@ PairRows<P> load_rows(const StepView& v, const PairRef* pairs) {
   simd::QuadLoader<Real, kLanes> velocities, spins;
   simd::unrolled<kLanes>([&](auto lane) {
     constexpr int i = decltype(lane)::value;
-    const std::byte* row = rows + sizeof(Row) * (pairs[i].*which);
+    const std::byte* row = rows + sizeof(Row) * slot_at(i);
     sites.template load<i>(row);
     velocities.template load<i>(row + offsetof(Row, vx));
     spins.template load<i>(row + offsetof(Row, wx));
@@ -38,16 +38,15 @@ PairRows<P> load_rows(const StepView& v, const PairRef* pairs) {
   return {{s.a, s.b, s.c}, s.d, {u.a, u.b, u.c}, {w.a, w.b, w.c}, u.d};
 }
 
-/// For grains of different materials: each lane's constants.
-template <class Real>
-PairConstants<simd::Pack<Real, kLanes>> constants_of_group(const StepView& v, const PairRef* pairs) {
+/// The constants that constants_at(0), constants_at(1), ... name.
+template <class Real, class ConstantsAt>
+PairConstants<simd::Pack<Real, kLanes>> load_constants(const ConstantsAt& constants_at) {
   using Scalars = PairConstants<Real>;
   static_assert(sizeof(Scalars) == 12 * sizeof(Real), "three quads");
-  const auto* rows = static_cast<const PairRow<Real>*>(v.rows);
   simd::QuadLoader<Real, kLanes> first, second, third;
   simd::unrolled<kLanes>([&](auto lane) {
     constexpr int i = decltype(lane)::value;
-    const Scalars& c = constants_of<Real>(v, rows[pairs[i].a].material, rows[pairs[i].b].material);
+    const Scalars& c = constants_at(i);
     first.template load<i>(reinterpret_cast<const std::byte*>(&c.effective_modulus));
     second.template load<i>(reinterpret_cast<const std::byte*>(&c.friction));
     third.template load<i>(reinterpret_cast<const std::byte*>(&c.hamaker_constant));
