@@ -11,6 +11,26 @@ Parts::Parts(std::size_t rows_, std::size_t count) : rows(rows_) {
   for (std::size_t p = 0; p <= count; ++p) first_block.push_back(blocks * p / count);
 }
 
+namespace {
+
+/// `key`: of pairs inside a part, the earlier row after the number of rows.
+std::vector<std::size_t> find_front(const std::vector<PairRef>& pairs, const std::vector<std::uint32_t>& key,
+                                    const Parts& parts) {
+  std::vector<std::size_t> front(parts.blocks());
+  for (std::size_t b = 0; b < front.size(); ++b) front[b] = parts.end_row(b);
+  for (std::size_t k = 0; k < pairs.size(); ++k) {
+    if (key[k] < parts.rows) continue;
+    std::size_t& last = front[(key[k] - parts.rows) / kRowsPerBlock];
+    last = std::max<std::size_t>(last, std::max(pairs[k].a, pairs[k].b) + 1);
+  }
+  for (std::size_t p = 0; p < parts.count(); ++p)
+    for (std::size_t b = parts.first_block[p] + 1; b < parts.first_block[p + 1]; ++b)
+      front[b] = std::max(front[b], front[b - 1]);
+  return front;
+}
+
+}  // namespace
+
 PairOrder order_pairs(const std::vector<PairRef>& pairs, const Parts& parts, bool all_shared) {
   const std::size_t rows = parts.rows;
   std::vector<std::uint16_t> part_of_block(parts.blocks());
@@ -55,6 +75,7 @@ PairOrder order_pairs(const std::vector<PairRef>& pairs, const Parts& parts, boo
   order.places = at;
   order.place.resize(pairs.size());
   for (std::size_t k = 0; k < pairs.size(); ++k) order.place[k] = start[key[k]]++;
+  sweep.front = find_front(pairs, key, parts);
   return order;
 }
 

@@ -39,6 +39,7 @@ struct Sweep {
   std::size_t shared_groups = 0;
   std::vector<std::size_t> first_group;  // of each part
   std::vector<std::size_t> done_before;  // by block: groups before this one must be done before its rows move
+  std::vector<std::size_t> front;        // by block: one past the last row that the groups up to there touch
 };
 
 /// Where each pair goes in a list of groups, and the sweep over them. A group holds pairs of one part only

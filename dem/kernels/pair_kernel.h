@@ -128,22 +128,6 @@ void evaluate_group(const L& laws, const StepView& v, const PairConstants<simd::
   bits.attracting = static_cast<std::uint16_t>(s.attracting);
 }
 
-/// Groups ahead for which rows are fetched: the earlier grains follow each other in memory, the later ones do
-/// not.
-inline constexpr std::size_t kFetchAhead = 4;
-
-template <class Real>
-void fetch_rows(const StepView& v, std::size_t group) {
-  const PairRef* pairs = v.pairs.pairs + group * kLanes;
-  const auto* rows = static_cast<const PairRow<Real>*>(v.rows);
-  simd::unrolled<kLanes>([&](auto lane) {
-    const PairRef& p = pairs[decltype(lane)::value];
-    const auto* row = reinterpret_cast<const char*>(rows + std::max(p.a, p.b));
-    __builtin_prefetch(row);
-    if constexpr (sizeof(PairRow<Real>) > 64) __builtin_prefetch(row + 64);
-  });
-}
-
 template <class L, class Real>
 [[gnu::flatten]] void evaluate_groups(const L& laws, const StepView& v, std::size_t begin, std::size_t end) {
   using P = simd::Pack<Real, kLanes>;
@@ -151,10 +135,7 @@ template <class L, class Real>
   if (v.only_material >= 0) {
     const auto m = static_cast<std::size_t>(v.only_material);
     const PairConstants<P> only = constants_of<Real>(v, m, m).template as<P>();
-    for (std::size_t g = begin; g < end; ++g) {
-      if (g + kFetchAhead < v.pairs.groups) fetch_rows<Real>(v, g + kFetchAhead);
-      evaluate_group<L, Real>(laws, v, &only, g);
-    }
+    for (std::size_t g = begin; g < end; ++g) evaluate_group<L, Real>(laws, v, &only, g);
   } else {
     for (std::size_t g = begin; g < end; ++g) evaluate_group<L, Real>(laws, v, nullptr, g);
   }
