@@ -78,9 +78,10 @@ class PairContacts {
  public:
   PairContacts(const KeptMemories& kept, Precision precision);
 
-  /// Takes over a new list; states and springs move with their pairs. `old_slot[s]` is where the
-  /// grain now in slot s stood when the present list was made (or kNoSlot); empty: where it is.
-  void replace(const std::vector<PairRef>& found, const std::vector<GrainSite>& sites,
+  /// Takes over a new list, those of its pairs that touch now (so many) first; states and springs move with
+  /// their pairs. `old_slot[s]` is where the grain now in slot s stood when the present list was made (or
+  /// kNoSlot); empty: where it is.
+  void replace(const std::vector<PairRef>& found, std::size_t touching, const std::vector<GrainSite>& sites,
                const std::vector<std::uint32_t>& old_slot, const Parts& parts);
 
   /// Places of pairs, listed and empty: the range of the indices below.

@@ -16,8 +16,8 @@ constexpr std::size_t kGroupsPerTask = 64;
 /// How far a grain may go in a step, in squared radii.
 constexpr double kStepLimit = 0.25;
 
-/// Asks for rows before they are needed: those that a block's pairs are the first to touch follow each other in
-/// memory, but are not touched in that order.
+/// Asks for rows before they are needed: those that a block's pairs are the first to touch follow each other
+/// in memory, but are not touched in that order.
 template <class Row>
 void fetch(const Row* begin, const Row* end) {
   for (const auto* p = reinterpret_cast<const char*>(begin); p < reinterpret_cast<const char*>(end); p += 64)

@@ -13,15 +13,49 @@ Parts::Parts(std::size_t rows_, std::size_t count) : rows(rows_) {
 
 namespace {
 
-/// `key`: of pairs inside a part, the earlier row after the number of rows.
-std::vector<std::size_t> find_front(const std::vector<PairRef>& pairs, const std::vector<std::uint32_t>& key,
+/// The order of pairs: shared ones first, by their earlier row; then block after block of their earlier rows,
+/// in each block pairs that touch before those that are only near, which so fill groups of their own that are
+/// soon done.
+class PairKeys {
+ public:
+  PairKeys(const std::vector<PairRef>& pairs, std::size_t touching, const Parts& parts, bool all_shared)
+      : shared_keys_(parts.blocks() * kRowsPerBlock), of_pair_(pairs.size()) {
+    std::vector<std::uint16_t> part_of_block(parts.blocks());
+    for (std::size_t p = 0; p < parts.count(); ++p)
+      for (std::size_t b = parts.first_block[p]; b < parts.first_block[p + 1]; ++b)
+        part_of_block[b] = static_cast<std::uint16_t>(p);
+    // Pairs of rows far from each other, as across a periodic face, would keep everything between in use.
+    const std::size_t farthest = std::max<std::size_t>(4096, parts.rows / 16);
+    for (std::size_t k = 0; k < pairs.size(); ++k) {
+      const auto [first, last] = std::minmax(pairs[k].a, pairs[k].b);
+      const bool shared = all_shared || last - first > farthest ||
+                          part_of_block[first / kRowsPerBlock] != part_of_block[last / kRowsPerBlock];
+      const std::size_t near = k < touching ? 0 : kRowsPerBlock;
+      of_pair_[k] = static_cast<std::uint32_t>(
+          shared ? first : begin_of(first / kRowsPerBlock) + near + first % kRowsPerBlock);
+    }
+  }
+
+  std::uint32_t of_pair(std::size_t k) const { return of_pair_[k]; }
+  bool is_shared(std::size_t k) const { return of_pair_[k] < shared_keys_; }
+  /// Keys of unshared pairs of a block.
+  std::size_t begin_of(std::size_t block) const { return shared_keys_ + 2 * kRowsPerBlock * block; }
+  std::size_t count(std::size_t blocks) const { return begin_of(blocks); }
+
+ private:
+  std::size_t shared_keys_;
+  std::vector<std::uint32_t> of_pair_;
+};
+
+std::vector<std::size_t> find_front(const std::vector<PairRef>& pairs, const PairKeys& keys,
                                     const Parts& parts) {
   std::vector<std::size_t> front(parts.blocks());
   for (std::size_t b = 0; b < front.size(); ++b) front[b] = parts.end_row(b);
   for (std::size_t k = 0; k < pairs.size(); ++k) {
-    if (key[k] < parts.rows) continue;
-    std::size_t& last = front[(key[k] - parts.rows) / kRowsPerBlock];
-    last = std::max<std::size_t>(last, std::max(pairs[k].a, pairs[k].b) + 1);
+    if (keys.is_shared(k)) continue;
+    const auto [first, last] = std::minmax(pairs[k].a, pairs[k].b);
+    std::size_t& end = front[first / kRowsPerBlock];
+    end = std::max<std::size_t>(end, last + 1);
   }
   for (std::size_t p = 0; p < parts.count(); ++p)
     for (std::size_t b = parts.first_block[p] + 1; b < parts.first_block[p + 1]; ++b)
@@ -31,51 +65,38 @@ std::vector<std::size_t> find_front(const std::vector<PairRef>& pairs, const std
 
 }  // namespace
 
-PairOrder order_pairs(const std::vector<PairRef>& pairs, const Parts& parts, bool all_shared) {
-  const std::size_t rows = parts.rows;
-  std::vector<std::uint16_t> part_of_block(parts.blocks());
-  for (std::size_t p = 0; p < parts.count(); ++p)
-    for (std::size_t b = parts.first_block[p]; b < parts.first_block[p + 1]; ++b)
-      part_of_block[b] = static_cast<std::uint16_t>(p);
-
-  // Pairs of rows far from each other, as across a periodic face, would keep everything between in use.
-  const std::size_t farthest = std::max<std::size_t>(4096, rows / 16);
-  // A counting sort by the earlier row; keys of pairs inside a part come after those of all shared pairs.
-  std::vector<std::uint32_t> key(pairs.size()), start(2 * rows, 0);
-  for (std::size_t k = 0; k < pairs.size(); ++k) {
-    const auto [first, last] = std::minmax(pairs[k].a, pairs[k].b);
-    const bool shared = all_shared || last - first > farthest ||
-                        part_of_block[first / kRowsPerBlock] != part_of_block[last / kRowsPerBlock];
-    key[k] = first + static_cast<std::uint32_t>(shared ? 0 : rows);
-    ++start[key[k]];
-  }
+PairOrder order_pairs(const std::vector<PairRef>& pairs, std::size_t touching, const Parts& parts,
+                      bool all_shared) {
+  const PairKeys keys(pairs, touching, parts, all_shared);
+  std::vector<std::uint32_t> start(keys.count(parts.blocks()), 0);  // a counting sort
+  for (std::size_t k = 0; k < pairs.size(); ++k) ++start[keys.of_pair(k)];
   PairOrder order;
   Sweep& sweep = order.sweep;
   sweep.parts = parts;
   std::size_t at = 0;
-  const auto place_rows = [&](std::size_t first_key, std::size_t last_key) {
-    for (std::size_t i = first_key; i < last_key; ++i) {
-      const std::uint32_t count = start[i];
-      start[i] = static_cast<std::uint32_t>(at);
+  const auto place_keys = [&](std::size_t begin, std::size_t end) {
+    for (std::size_t key = begin; key < end; ++key) {
+      const std::uint32_t count = start[key];
+      start[key] = static_cast<std::uint32_t>(at);
       at += count;
     }
   };
-  const auto next_group = [&] { return (at + kLanes - 1) / kLanes; };
-  place_rows(0, rows);
+  const auto next_group = [&] { return groups_for(at); };
+  place_keys(0, keys.begin_of(0));
   sweep.shared_groups = next_group();
   at = sweep.shared_groups * kLanes;
   for (std::size_t p = 0; p < parts.count(); ++p) {
     sweep.first_group.push_back(next_group());
     for (std::size_t b = parts.first_block[p]; b < parts.first_block[p + 1]; ++b) {
-      place_rows(rows + parts.begin_row(b), rows + parts.end_row(b));
+      place_keys(keys.begin_of(b), keys.begin_of(b + 1));
       sweep.done_before.push_back(next_group());
     }
     at = next_group() * kLanes;
   }
   order.places = at;
   order.place.resize(pairs.size());
-  for (std::size_t k = 0; k < pairs.size(); ++k) order.place[k] = start[key[k]]++;
-  sweep.front = find_front(pairs, key, parts);
+  for (std::size_t k = 0; k < pairs.size(); ++k) order.place[k] = start[keys.of_pair(k)]++;
+  sweep.front = find_front(pairs, keys, parts);
   return order;
 }
 

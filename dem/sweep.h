@@ -50,7 +50,9 @@ struct PairOrder {
   std::size_t places = 0;            // a multiple of kLanes
 };
 
-/// `all_shared`: every pair is done before any grain moves.
-PairOrder order_pairs(const std::vector<PairRef>& pairs, const Parts& parts, bool all_shared);
+/// `touching`: so many pairs, the first ones, may touch now. `all_shared`: every pair is done before any
+/// grain moves.
+PairOrder order_pairs(const std::vector<PairRef>& pairs, std::size_t touching, const Parts& parts,
+                      bool all_shared);
 
 }  // namespace interstice::dem

@@ -179,16 +179,20 @@ void Simulation::refresh(const std::vector<std::uint32_t>& old_slot, const std::
     reaching[s].radius += path_left_[s];
   }
   const Blocks blocks{candidates_.size(), 4096};
-  std::vector<std::vector<PairRef>> near(blocks.count());
+  std::vector<std::vector<PairRef>> touching(blocks.count()), near(blocks.count());
   for_each_block(blocks, [&](std::size_t b, std::size_t begin, std::size_t end) {
-    for (std::size_t k = begin; k < end; ++k)
-      if (are_near(reaching[candidates_[k].a], reaching[candidates_[k].b], space))
-        near[b].push_back(candidates_[k]);
+    for (std::size_t k = begin; k < end; ++k) {
+      const PairRef& c = candidates_[k];
+      if (!are_near(reaching[c.a], reaching[c.b], space)) continue;
+      (are_near(sites[c.a], sites[c.b], space) ? touching : near)[b].push_back(c);
+    }
   });
   std::vector<PairRef> pairs;
   pairs.reserve(candidates_.size());
+  for (const auto& t : touching) pairs.insert(pairs.end(), t.begin(), t.end());
+  const std::size_t touch = pairs.size();
   for (const auto& n : near) pairs.insert(pairs.end(), n.begin(), n.end());
-  pair_contacts_.replace(pairs, sites, old_slot, parts());
+  pair_contacts_.replace(pairs, touch, sites, old_slot, parts());
   reach_of_walls_ = near_reach_of_walls();
   wall_contacts_.replace(reaching, walls_, reach_of_walls_ + attraction_, old_slot);
   refreshed_walls_ = walls_;

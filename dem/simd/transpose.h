@@ -111,18 +111,22 @@ class QuadLoader {
   template <int row>
   void load(const std::byte* p) {
     constexpr int at = row % kNativeLanes<T> / kPerBlock;
-    for (int half = 0; half < kHalves; ++half)
-      detail::set_block<at>(blocks_[half][row % kPerBlock][row / kNativeLanes<T>], p + 16 * half);
+    unrolled<kHalves>([&](auto half) {
+      constexpr int h = decltype(half)::value;
+      detail::set_block<at>(blocks_[h][row % kPerBlock][row / kNativeLanes<T>], p + 16 * h);
+    });
   }
   Quad<Pack<T, N>> quad() const {
     using namespace detail;
     V columns[4][kRegisters];
-    for (int r = 0; r < kRegisters; ++r) {
+    unrolled<kRegisters>([&](auto index) {
+      constexpr int r = decltype(index)::value;
       if constexpr (sizeof(T) == 8) {
-        for (int half = 0; half < 2; ++half) {
+        unrolled<2>([&](auto which) {
+          constexpr int half = decltype(which)::value;
           columns[2 * half][r] = interleave<T, false>(blocks_[half][0][r], blocks_[half][1][r]);
           columns[2 * half + 1][r] = interleave<T, true>(blocks_[half][0][r], blocks_[half][1][r]);
-        }
+        });
       } else {
         const auto& b = blocks_[0];
         const V ab01 = interleave<T, false>(b[0][r], b[1][r]), ab23 = interleave<T, false>(b[2][r], b[3][r]);
@@ -132,7 +136,7 @@ class QuadLoader {
         columns[2][r] = interleave<double, false>(cd01, cd23);
         columns[3][r] = interleave<double, true>(cd01, cd23);
       }
-    }
+    });
     return {assembled<T, N>(columns[0]), assembled<T, N>(columns[1]), assembled<T, N>(columns[2]),
             assembled<T, N>(columns[3])};
   }
