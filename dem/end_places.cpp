@@ -9,7 +9,7 @@ namespace {
 
 /// A rank is collected by lanes where at least so many grains of the group have an end of it: it costs as
 /// much as some ends collected one by one.
-constexpr std::size_t kWorthARank = 6;
+constexpr std::size_t kWorthARank = 2;
 
 std::uint32_t ranks_of(const std::uint32_t* count) {
   std::array<std::uint32_t, kLanes> most_first;
@@ -35,7 +35,8 @@ Layout lay_out(EndRing& ring, const std::vector<std::uint32_t>& first_end, std::
     std::uint32_t beyond = 0;
     for (std::size_t s = g * kLanes; s < (g + 1) * kLanes; ++s)
       beyond += ring.count[s] - std::min(ring.count[s], ranks);
-    ring.rows[g] = {0, ranks, beyond};
+    const std::uint32_t full = *std::min_element(&ring.count[g * kLanes], &ring.count[g * kLanes] + kLanes);
+    ring.rows[g] = {0, full, ranks, beyond};
     const std::size_t places = ranks * kLanes + beyond;
     layout.before.push_back(layout.before.back() + places);
     layout.largest = std::max(layout.largest, places);

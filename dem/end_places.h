@@ -22,9 +22,9 @@ struct PairEnds {
 };
 
 /// The places of a group of grains: `ranks` times kLanes from `first` on, and behind these, grain after
-/// grain, the ends beyond, so many in all.
+/// grain, the ends beyond, so many in all. Every grain has an end of the first `full` ranks.
 struct EndRows {
-  std::uint32_t first = 0, ranks = 0, beyond = 0;
+  std::uint32_t first = 0, full = 0, ranks = 0, beyond = 0;
 
   std::uint32_t rest() const { return first + ranks * static_cast<std::uint32_t>(kLanes); }
 };

@@ -29,30 +29,65 @@ void add_rest(const Real* ends, const EndRows& rows, const std::uint32_t* count,
   for (std::size_t j = 0; j < 6; ++j) *packs[j] = P::load(columns[j]);
 }
 
+/// Sums rows of ends as they lie, as many in a register as it holds, and turns only the sums into lanes.
+template <class Real>
+class RowSums {
+ public:
+  /// One end of every grain.
+  void add(const Real* ends) {
+    simd::unrolled<kPacks>([&](auto index) {
+      constexpr int j = decltype(index)::value;
+      sums_[j] += Rows::load(ends + j * kReals);
+    });
+  }
+  /// One end of the grains whose bits are set.
+  void add(const Real* ends, std::uint32_t which) {
+    simd::unrolled<kPacks>([&](auto index) {
+      constexpr int j = decltype(index)::value;
+      const auto own = Rows::M::from_bits(reals_of(which >> (j * kEnds)));
+      sums_[j] = select(own, sums_[j] + Rows::load(ends + j * kReals), sums_[j]);
+    });
+  }
+  EndSums<simd::Pack<Real, kLanes>> lanes() const {
+    alignas(64) Real rows[kLanes * kEndReals];
+    for (int j = 0; j < kPacks; ++j) sums_[j].store(rows + j * kReals);
+    simd::QuadLoader<Real, kLanes> forces, torques;
+    simd::unrolled<kLanes>([&](auto lane) {
+      const auto* at = reinterpret_cast<const std::byte*>(rows + kEndReals * decltype(lane)::value);
+      forces.template load<decltype(lane)::value>(at);
+      torques.template load<decltype(lane)::value>(at + 4 * sizeof(Real));
+    });
+    const auto f = forces.quad(), t = torques.quad();
+    return {{f.a, f.b, f.c}, {t.a, t.b, t.c}};
+  }
+
+ private:
+  static constexpr int kReals = 64 / sizeof(Real), kEnds = kReals / static_cast<int>(kEndReals),
+                       kPacks = static_cast<int>(kLanes) / kEnds;
+  using Rows = simd::Pack<Real, kReals>;
+  /// A bit an end to a bit a number.
+  static std::uint32_t reals_of(std::uint32_t ends) {
+    if constexpr (kEnds == 1) return (ends & 1) * 0xff;
+    return (ends & 1) * 0xff + (ends >> 1 & 1) * 0xff00;
+  }
+
+  Rows sums_[kPacks];
+};
+
 /// Sums each grain's ends in their order. `ends`: the ring; `count`: how many each grain has.
 template <class Real>
 EndSums<simd::Pack<Real, kLanes>> end_sums(const Real* ends, const EndRows& rows,
                                            const std::uint32_t* count) {
-  using P = simd::Pack<Real, kLanes>;
-  const P none(0);
-  EndSums<P> sums{{none, none, none}, {none, none, none}};
-  const P has = simd::from_counts<Real, kLanes>(count);
+  RowSums<Real> sums;
   const Real* end = ends + kEndReals * rows.first;
-  for (std::uint32_t k = 0; k < rows.ranks; ++k, end += kEndReals * kLanes) {
-    simd::QuadLoader<Real, kLanes> forces, torques;
-    simd::unrolled<kLanes>([&](auto lane) {
-      constexpr int i = decltype(lane)::value;
-      const auto* at = reinterpret_cast<const std::byte*>(end + kEndReals * i);
-      forces.template load<i>(at);
-      torques.template load<i>(at + 4 * sizeof(Real));
-    });
-    const auto f = forces.quad(), t = torques.quad();
-    const auto own = has > P(static_cast<Real>(k));
-    sums.force = select(own, sums.force + Vec3<P>{f.a, f.b, f.c}, sums.force);
-    sums.torque = select(own, sums.torque + Vec3<P>{t.a, t.b, t.c}, sums.torque);
-  }
-  if (rows.beyond > 0) add_rest(ends, rows, count, sums);
-  return sums;
+  constexpr std::size_t rank = kEndReals * kLanes;
+  for (std::uint32_t k = 0; k < rows.full; ++k, end += rank) sums.add(end);
+  const auto has = simd::from_counts<float, kLanes>(count);
+  for (std::uint32_t k = rows.full; k < rows.ranks; ++k, end += rank)
+    sums.add(end, (has > simd::Pack<float, kLanes>(k)).bits());
+  auto all = sums.lanes();
+  if (rows.beyond > 0) add_rest(ends, rows, count, all);
+  return all;
 }
 
 }  // namespace interstice::dem
