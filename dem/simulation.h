@@ -120,7 +120,8 @@ class Simulation {
   bool inside(const Vec3d& position) const;
   void remove_leavers();
   double near_reach(double speed) const;
-  double near_reach_of(std::size_t slot) const;
+  double speed_of(std::size_t slot) const;
+  double candidate_reach_left(std::size_t slot) const;
   double candidate_reach_of(std::size_t slot) const;
   double near_reach_of_walls() const;
   bool candidates_last() const;
@@ -138,6 +139,9 @@ class Simulation {
   StepView step_view(const PairView& pairs) const;
   void count_inserted_contacts();
   double inserted_on_wall(const GrainRow& grain, const WallContact& contact) const;
+  template <class Row>
+  void evaluate_pairs(const StepView& view, std::size_t begin, std::size_t end, const Row* ahead,
+                      const Row* ahead_end);
   void evaluate_walls(const StepView& view, std::size_t begin, std::size_t end);
   void add_walls(std::size_t group, Vec3<Each>& force, Vec3<Each>& torque);
   void add_lifting(std::size_t first, const Vec3<Each>& step);
@@ -172,7 +176,7 @@ class Simulation {
   double mean_diameter_ = 0;             // when the list was built [m]
   double attraction_ = 0;                // how far bodies attract each other [m]
   std::vector<PairRef> candidates_;      // whose long reaches meet
-  std::vector<double> reach_;            // by slot: how far from where the list was built candidates last [m]
+  std::vector<float> reach_;             // by slot: how far from where the list was built candidates last [m]
   LargeVector<double> path_left_;        // by slot, up to whole groups: what is left of the short reaches [m]
   bool strayed_ = false;                 // a grain has used up its short reach
   double reach_of_walls_ = 0;            // the same for walls [m]

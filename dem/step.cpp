@@ -13,16 +13,10 @@ namespace interstice::dem {
 namespace {
 
 constexpr std::size_t kGroupsPerTask = 64;
+/// Groups of pairs between requests for rows ahead: many at once would wait for each other.
+constexpr std::size_t kGroupsAtOnce = 4;
 /// How far a grain may go in a step, in squared radii.
 constexpr double kStepLimit = 0.25;
-
-/// Asks for rows before they are needed: those that a block's pairs are the first to touch follow each other
-/// in memory, but are not touched in that order.
-template <class Row>
-void fetch(const Row* begin, const Row* end) {
-  for (const auto* p = reinterpret_cast<const char*>(begin); p < reinterpret_cast<const char*>(end); p += 64)
-    __builtin_prefetch(p, 1, 2);
-}
 
 }  // namespace
 
@@ -134,8 +128,9 @@ void Simulation::evaluate_and_move(PairRow<Real>* rows, bool begin_next) {
   const auto work_on = [&](std::size_t part) {
     std::size_t group = sweep.first_group[part];
     for (std::size_t b = sweep.parts.first_block[part]; b < sweep.parts.first_block[part + 1]; ++b) {
-      if (b + 1 < sweep.parts.first_block[part + 1]) fetch(rows + sweep.front[b], rows + sweep.front[b + 1]);
-      kernels_.pairs(model_.laws, view, group, sweep.done_before[b]);
+      const bool last = b + 1 == sweep.parts.first_block[part + 1];
+      evaluate_pairs(view, group, sweep.done_before[b], rows + sweep.front[b],
+                     rows + sweep.front[last ? b : b + 1]);
       group = sweep.done_before[b];
       pair_contacts_.fetch_shared(b);
       const std::size_t begin = sweep.parts.begin_row(b), end = sweep.parts.end_row(b);
@@ -154,6 +149,22 @@ void Simulation::evaluate_and_move(PairRow<Real>* rows, bool begin_next) {
         tbb::simple_partitioner());
   }
   if (begin_next) take_report(reports);
+}
+
+/// Evaluates groups of pairs and asks meanwhile for the rows [ahead, ahead_end), which later pairs are the
+/// first to touch: they follow each other in memory, but are not touched in that order.
+template <class Row>
+void Simulation::evaluate_pairs(const StepView& view, std::size_t begin, std::size_t end, const Row* ahead,
+                                const Row* ahead_end) {
+  const auto* line = reinterpret_cast<const char*>(ahead);
+  const auto* const last = reinterpret_cast<const char*>(ahead_end);
+  for (std::size_t group = begin; group < end; group += kGroupsAtOnce) {
+    const std::size_t until = std::min(end, group + kGroupsAtOnce);
+    const auto* const share = line + (last - line) * static_cast<std::ptrdiff_t>(until - group) /
+                                         static_cast<std::ptrdiff_t>(end - group);
+    for (; line < share; line += 64) __builtin_prefetch(line, 1, 2);
+    kernels_.pairs(model_.laws, view, group, until);
+  }
 }
 
 /// What walls do to the grains in slots [begin, end).

@@ -20,6 +20,8 @@ constexpr std::size_t kPartsPerThread = 4;
 /// Steps for which near pairs shall last, and how many times as long candidates: a refresh takes some five
 /// steps, a search three times that.
 constexpr double kStepsAhead = 150, kCandidatesLast = 4;
+/// Candidates that leave a grain fewer steps than this are found anew.
+constexpr double kLeastSteps = 20;
 /// A grain may become faster: its reach is so many times what it needs at its present speed.
 constexpr double kHaste = 1.5;
 /// The least and the greatest short reach, in mean diameters: where all is at rest lists need not last
@@ -37,16 +39,22 @@ double Simulation::near_reach(double speed) const {
                     kGreatestReach * mean_diameter_);
 }
 
-double Simulation::near_reach_of(std::size_t slot) const {
+double Simulation::speed_of(std::size_t slot) const {
   return grains_.with_rows([&](const auto& rows) {
     const auto& r = rows[slot];
-    return near_reach(std::sqrt(static_cast<double>(r.vx * r.vx + r.vy * r.vy + r.vz * r.vz)));
+    return std::sqrt(static_cast<double>(r.vx * r.vx + r.vy * r.vy + r.vz * r.vz));
   });
+}
+
+/// What is left of a long reach [m].
+double Simulation::candidate_reach_left(std::size_t slot) const {
+  return static_cast<double>(reach_[slot]) -
+         norm(grains_.site(slot).position() - grains_.labels()[slot].built);
 }
 
 double Simulation::candidate_reach_of(std::size_t slot) const {
   if (options_.skin > 0) return options_.skin / 2;
-  return std::max(kCandidatesLast * near_reach_of(slot), kLeastCandidateReach * mean_diameter_);
+  return std::max(kCandidatesLast * near_reach(speed_of(slot)), kLeastCandidateReach * mean_diameter_);
 }
 
 /// How far walls may go before those near grains are listed anew [m].
@@ -67,17 +75,15 @@ double Simulation::wall_travel() const {
   return farthest;
 }
 
-/// Can no grain leave its long reach before it has used up a new short one?
+/// Is enough left of all long reaches?
 bool Simulation::candidates_last() const {
   const Blocks blocks{grains_.size(), 4096};
-  std::vector<std::uint8_t> over(blocks.count(), 0);
+  std::vector<std::uint8_t> short_of(blocks.count(), 0);
   for_each_block(blocks, [&](std::size_t b, std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      const double moved = norm(grains_.site(i).position() - grains_.labels()[i].built);
-      if (moved + near_reach_of(i) > reach_[i]) over[b] = 1;
-    }
+    for (std::size_t i = begin; i < end; ++i)
+      if (candidate_reach_left(i) < kLeastSteps * dt_ * speed_of(i)) short_of[b] = 1;
   });
-  return std::find(over.begin(), over.end(), 1) == over.end();
+  return std::find(short_of.begin(), short_of.end(), 1) == short_of.end();
 }
 
 void Simulation::update_lists() {
@@ -158,8 +164,8 @@ void Simulation::find_candidates(const std::vector<GrainSite>& sites) {
   reach_.resize(sites.size());
   double largest = 0;
   for (std::size_t s = 0; s < sites.size(); ++s) {
-    reach_[s] = candidate_reach_of(s);
-    reaching[s].radius += reach_[s];
+    reach_[s] = static_cast<float>(candidate_reach_of(s));
+    reaching[s].radius += static_cast<double>(reach_[s]);
     largest = std::max(largest, reaching[s].radius);
   }
   check_periodic_lengths(largest);
@@ -175,7 +181,7 @@ void Simulation::refresh(const std::vector<std::uint32_t>& old_slot, const std::
   std::vector<GrainSite> reaching = sites;
   path_left_.assign(groups_for(sites.size()) * kLanes, 0);
   for (std::size_t s = 0; s < sites.size(); ++s) {
-    path_left_[s] = near_reach_of(s);
+    path_left_[s] = std::min(near_reach(speed_of(s)), candidate_reach_left(s));
     reaching[s].radius += path_left_[s];
   }
   const Blocks blocks{candidates_.size(), 4096};
