@@ -20,13 +20,14 @@ constexpr std::size_t kPartsPerThread = 4;
 /// Steps for which near pairs shall last, and how many times as long candidates: a refresh takes some five
 /// steps, a search three times that.
 constexpr double kStepsAhead = 150, kCandidatesLast = 4;
-/// Candidates that leave a grain fewer steps than this are found anew.
-constexpr double kLeastSteps = 20;
+/// Candidates that leave a grain fewer steps than this, and less than this share of its reach, are found
+/// anew.
+constexpr double kLeastSteps = 20, kLeastShare = 0.25;
 /// A grain may become faster: its reach is so many times what it needs at its present speed.
 constexpr double kHaste = 1.5;
 /// The least and the greatest short reach, in mean diameters: where all is at rest lists need not last
 /// forever, and where grains fly long reaches would list pairs that never touch.
-constexpr double kLeastReach = 0.001, kGreatestReach = 0.05;
+constexpr double kLeastReach = 0.001, kGreatestReach = 0.1;
 /// The least long reach, in mean diameters.
 constexpr double kLeastCandidateReach = 0.02;
 
@@ -81,7 +82,9 @@ bool Simulation::candidates_last() const {
   std::vector<std::uint8_t> short_of(blocks.count(), 0);
   for_each_block(blocks, [&](std::size_t b, std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i)
-      if (candidate_reach_left(i) < kLeastSteps * dt_ * speed_of(i)) short_of[b] = 1;
+      if (candidate_reach_left(i) <
+          std::min(kLeastSteps * dt_ * speed_of(i), kLeastShare * static_cast<double>(reach_[i])))
+        short_of[b] = 1;
   });
   return std::find(short_of.begin(), short_of.end(), 1) == short_of.end();
 }

@@ -99,7 +99,8 @@ TEST(Sjkr, PullOffOfTheMedianPairOfPaper004) {
     kin.effective_radius = 0.5 * r;
     kin.effective_mass = 1;
     kin.area = sphere_sphere_area(r, r, 2 * r - overlap, overlap);
-    const auto f = evaluate_contact(Laws{.cohesion = CohesionLaw::sjkr}, kin, c, {}, {1e-9, 1e-3});
+    const auto f =
+        evaluate_contact(Laws{.cohesion = CohesionLaw::sjkr}, kin, c, {}, step_constants<double>(1e-9, 1e-3));
     lowest = std::min(lowest, f.force.x);
   }
   EXPECT_NEAR(-lowest, 6.64e-9, 0.01e-9);
@@ -178,17 +179,17 @@ TEST(Slider, NeverReversesTheSlipInAStep) {
 TEST(Cdt, TorqueIsConstantOpposesRollingAndLeavesTwistingAlone) {
   const Vec3d n{0, 0, 1};
   const double limit = 0.01 * 3 * 5e-6, mass = 1e-3, radius = 5e-6, dt = 1e-9;
-  const Vec3d slow = cdt_torque<double>({0, 20, 0}, n, limit, mass, radius, dt),
-              fast = cdt_torque<double>({0, 200, 0}, n, limit, mass, radius, dt);
+  const Vec3d slow = cdt_torque<double>({0, 20, 0}, n, limit, mass, radius, 1 / dt),
+              fast = cdt_torque<double>({0, 200, 0}, n, limit, mass, radius, 1 / dt);
   EXPECT_NEAR(slow.y, -limit, 1e-22);
   EXPECT_NEAR(fast.y, slow.y, 1e-22);
-  EXPECT_EQ(norm(cdt_torque<double>({0, 0, 9}, n, limit, mass, radius, dt)), 0);
-  EXPECT_EQ(norm(cdt_torque<double>({0, 0, 0}, n, limit, mass, radius, dt)), 0);
+  EXPECT_EQ(norm(cdt_torque<double>({0, 0, 9}, n, limit, mass, radius, 1 / dt)), 0);
+  EXPECT_EQ(norm(cdt_torque<double>({0, 0, 0}, n, limit, mass, radius, 1 / dt)), 0);
 }
 
 TEST(Cdt, NeverReversesTheSpinOfASphereOnAWall) {
   const double mass = 1e-9, radius = 2e-5, dt = 1e-6, spin = 3;
-  const double torque = cdt_torque<double>({0, spin, 0}, {0, 0, 1}, 1e3, mass, radius, dt).y;
+  const double torque = cdt_torque<double>({0, spin, 0}, {0, 0, 1}, 1e3, mass, radius, 1 / dt).y;
   EXPECT_NEAR(torque * dt / (0.4 * mass * radius * radius), -kCdtShare * spin, 1e-12);
 }
 
@@ -210,12 +211,13 @@ TEST(Contact, ClippingRemovesTensionButNotCohesion) {
   kin.effective_radius = 1e-5;
   kin.effective_mass = 1e-10;
   kin.velocity = {1, 0, 0};  // separating fast: the dashpot pulls
-  EXPECT_LT(evaluate_contact(Laws{}, kin, c, {}, {1e-9, 1e-3}).force.x, 0);
-  EXPECT_EQ(evaluate_contact(Laws{.clip = true}, kin, c, {}, {1e-9, 1e-3}).force.x, 0);
+  EXPECT_LT(evaluate_contact(Laws{}, kin, c, {}, step_constants<double>(1e-9, 1e-3)).force.x, 0);
+  EXPECT_EQ(evaluate_contact(Laws{.clip = true}, kin, c, {}, step_constants<double>(1e-9, 1e-3)).force.x, 0);
   kin.area = 1e-14;
-  EXPECT_DOUBLE_EQ(
-      evaluate_contact(Laws{.clip = true, .cohesion = CohesionLaw::sjkr}, kin, c, {}, {1e-9, 1e-3}).force.x,
-      -1e-8);
+  EXPECT_DOUBLE_EQ(evaluate_contact(Laws{.clip = true, .cohesion = CohesionLaw::sjkr}, kin, c, {},
+                                    step_constants<double>(1e-9, 1e-3))
+                       .force.x,
+                   -1e-8);
 }
 
 // docs: Rayleigh time of the smallest grain of paper 004, 39.2 ns.

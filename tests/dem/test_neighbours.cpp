@@ -11,7 +11,7 @@ namespace interstice::dem {
 namespace {
 
 std::vector<GrainSite> cloud(std::size_t n, double smallest, double largest, const Box& box,
-                            std::uint64_t seed) {
+                             std::uint64_t seed) {
   Random random(seed, 1);
   std::vector<GrainSite> rows(n);
   for (std::size_t i = 0; i < n; ++i) {

@@ -1,0 +1,79 @@
+// The lists hold every pair that touches, at every step, however fast grains are; whatever reaches they were
+// made by.
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "tests/dem/scenes.h"
+
+namespace interstice::dem {
+namespace {
+
+using testing::falling_cloud;
+
+using Pairs = std::set<std::pair<std::int64_t, std::int64_t>>;
+
+Pairs touching(const Simulation& sim) {
+  Pairs pairs;
+  for (std::size_t k = 0; k < sim.pair_contacts().places(); ++k) {
+    if (!sim.pair_contacts().touching(k)) continue;
+    const auto [a, b] =
+        std::minmax(sim.site(sim.pair_contacts().pair(k).a).id, sim.site(sim.pair_contacts().pair(k).b).id);
+    EXPECT_TRUE(pairs.insert({a, b}).second) << "listed twice";
+  }
+  return pairs;
+}
+
+/// By trying every pair of grains, and none of the lists.
+Pairs overlapping(const Simulation& sim) {
+  Pairs pairs;
+  for (std::size_t i = 0; i < sim.grains(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      const GrainSite a = sim.site(i), b = sim.site(j);
+      const Vec3d d = separation(a.position(), b.position(), sim.search_space());
+      if (dot(d, d) < (a.radius + b.radius) * (a.radius + b.radius)) pairs.insert(std::minmax(a.id, b.id));
+    }
+  }
+  return pairs;
+}
+
+void expect_whole_lists(Simulation& sim, std::int64_t steps) {
+  std::size_t seen = 0;
+  for (std::int64_t s = 0; s < steps; ++s) {
+    sim.advance(s % 3 == 0 ? 1 : 2);
+    const Pairs pairs = touching(sim);
+    ASSERT_EQ(pairs, overlapping(sim)) << "step " << sim.step();
+    seen += pairs.size();
+  }
+  EXPECT_GT(seen, 300u);  // contacts that came or went would show
+}
+
+TEST(Lists, HoldEveryTouchingPairOfAFallingCloud) {
+  Simulation sim = falling_cloud(400);
+  sim.advance(6000);
+  expect_whole_lists(sim, 200);
+}
+
+TEST(Lists, HoldEveryTouchingPairForATinySkin) {
+  Simulation sim = falling_cloud(400, {false, 2e-8});
+  sim.advance(6000);
+  expect_whole_lists(sim, 100);
+}
+
+/// A grain at 20 m/s through a cloud that barely moves: lists are made for its path, not for the
+/// cloud's.
+TEST(Lists, AreNotMadeAnewForOneFastGrain) {
+  Simulation sim = falling_cloud(150);
+  sim.advance(200);
+  const std::int64_t before = sim.rebuilds();
+  NewGrain fast;
+  fast.position = {0.5e-4, 0.5e-4, 4e-2};  // far above all others
+  fast.radius = 1e-5;
+  fast.velocity = {0, 0, 20};
+  sim.add_grains({&fast, 1});
+  sim.advance(400);
+  EXPECT_LT(sim.rebuilds() - before, 12);  // by its 8e-5 m on the way; the least reach would take a hundred
+}
+
+}  // namespace
+}  // namespace interstice::dem
