@@ -154,11 +154,9 @@ std::size_t Simulation::bytes() const {
 }
 
 std::vector<std::uint32_t> Simulation::slots_by_id() const {
-  std::vector<std::uint32_t> slots(grains_.size());
-  for (std::uint32_t s = 0; s < slots.size(); ++s) slots[s] = s;
-  std::sort(slots.begin(), slots.end(), [&](std::uint32_t l, std::uint32_t r) {
-    return grains_.labels()[l].id < grains_.labels()[r].id;
-  });
+  std::vector<std::uint32_t> slots(static_cast<std::size_t>(next_id_), PairContacts::kNoSlot);
+  for (std::uint32_t s = 0; s < grains_.size(); ++s) slots[id_of(s)] = s;
+  std::erase(slots, PairContacts::kNoSlot);  // grains that left
   return slots;
 }
 
