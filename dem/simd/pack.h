@@ -179,7 +179,7 @@ struct Pack<T, N, true> {
     } else {
       y.lanes = _mm512_rcp14_pd(a.lanes);
     }
-    for (int i = 0; i < (single ? 1 : 2); ++i) y = y + y * (Pack(1) - a * y);
+    for (int i = 0; i < (single ? 1 : 2); ++i) y = multiply_add(y, multiply_add(-a, y, Pack(1)), y);
     return y;
   }
   /// The first improvement of the third order, from 2^-14 to 2^-40.
@@ -189,10 +189,10 @@ struct Pack<T, N, true> {
       y.lanes = _mm512_rsqrt14_ps(a.lanes);
     } else {
       y.lanes = _mm512_rsqrt14_pd(a.lanes);
-      const Pack off = Pack(1) - a * y * y;
-      y = y + y * off * (Pack(0.5) + Pack(0.375) * off);
+      const Pack off = multiply_add(-a * y, y, Pack(1));
+      y = multiply_add(y * off, multiply_add(Pack(0.375), off, Pack(0.5)), y);
     }
-    return y + Pack(0.5) * y * (Pack(1) - a * y * y);
+    return multiply_add(Pack(0.5) * y, multiply_add(-a * y, y, Pack(1)), y);
   }
 #endif
   friend Pack inverse_of(const Pack& a) {
@@ -216,6 +216,31 @@ struct Pack<T, N, true> {
     Pack r;  // with -fno-math-errno one instruction
     for (int i = 0; i < N; ++i) r.lanes[i] = std::sqrt(a.lanes[i]);
     return r;
+  }
+  /// a b + c and a b - c, each rounded once where the machine can.
+  friend Pack multiply_add(const Pack& a, const Pack& b, const Pack& c) {
+#ifdef INTERSTICE_AVX512
+    if constexpr (sizeof(Lanes) == 64) {
+      if constexpr (std::is_same_v<T, float>) {
+        return _mm512_fmadd_ps(a.lanes, b.lanes, c.lanes);
+      } else {
+        return _mm512_fmadd_pd(a.lanes, b.lanes, c.lanes);
+      }
+    }
+#endif
+    return a * b + c;
+  }
+  friend Pack multiply_subtract(const Pack& a, const Pack& b, const Pack& c) {
+#ifdef INTERSTICE_AVX512
+    if constexpr (sizeof(Lanes) == 64) {
+      if constexpr (std::is_same_v<T, float>) {
+        return _mm512_fmsub_ps(a.lanes, b.lanes, c.lanes);
+      } else {
+        return _mm512_fmsub_pd(a.lanes, b.lanes, c.lanes);
+      }
+    }
+#endif
+    return a * b - c;
   }
   template <class F>
   friend Pack each(const Pack& a, const F& f) {
@@ -254,6 +279,12 @@ struct Pack<T, N, false> {
   friend Pack select(const M& condition, const Pack& yes, const Pack& no) {
     return {select(condition.lo, yes.lo, no.lo), select(condition.hi, yes.hi, no.hi)};
   }
+  friend Pack multiply_add(const Pack& a, const Pack& b, const Pack& c) {
+    return {multiply_add(a.lo, b.lo, c.lo), multiply_add(a.hi, b.hi, c.hi)};
+  }
+  friend Pack multiply_subtract(const Pack& a, const Pack& b, const Pack& c) {
+    return {multiply_subtract(a.lo, b.lo, c.lo), multiply_subtract(a.hi, b.hi, c.hi)};
+  }
   friend Pack sqrt_of(const Pack& a) { return {sqrt_of(a.lo), sqrt_of(a.hi)}; }
   friend Pack inverse_of(const Pack& a) { return {inverse_of(a.lo), inverse_of(a.hi)}; }
   friend Pack inverse_root_of(const Pack& a) { return {inverse_root_of(a.lo), inverse_root_of(a.hi)}; }
@@ -287,6 +318,18 @@ Pack<T, N> cbrt_of(const Pack<T, N>& a) {
 template <class T, int N>
 Pack<T, N> sqrt(const Pack<T, N>& a) {
   return sqrt_of(a);
+}
+
+/// Of vectors of packs, fused in one way only: left to the compiler, it might be one way in one half of a
+/// pack and another way in the other.
+template <class T, int N>
+Pack<T, N> dot(const Vec3<Pack<T, N>>& a, const Vec3<Pack<T, N>>& b) {
+  return multiply_add(a.z, b.z, multiply_add(a.y, b.y, a.x * b.x));
+}
+template <class T, int N>
+Vec3<Pack<T, N>> cross(const Vec3<Pack<T, N>>& a, const Vec3<Pack<T, N>>& b) {
+  return {multiply_subtract(a.y, b.z, a.z * b.y), multiply_subtract(a.z, b.x, a.x * b.z),
+          multiply_subtract(a.x, b.y, a.y * b.x)};
 }
 
 /// As in contact/numeric.h.
