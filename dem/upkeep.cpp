@@ -15,7 +15,7 @@ namespace interstice::dem {
 namespace {
 
 constexpr std::int64_t kRebuildsPerSort = 32;
-constexpr std::size_t kPartsPerThread = 4;
+constexpr std::size_t kPartsPerThread = 2;
 
 /// Steps for which near pairs shall last, and how many times as long candidates: a refresh takes some five
 /// steps, a search three times that.
