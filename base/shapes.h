@@ -21,6 +21,10 @@ struct Box {
   bool contains(const Vec3d& p) const {  // half open, so that neighbouring boxes share no point
     return p.x >= lo.x && p.x < hi.x && p.y >= lo.y && p.y < hi.y && p.z >= lo.z && p.z < hi.z;
   }
+  /// The point of the box that is nearest to p.
+  Vec3d nearest(const Vec3d& p) const {
+    return {std::clamp(p.x, lo.x, hi.x), std::clamp(p.y, lo.y, hi.y), std::clamp(p.z, lo.z, hi.z)};
+  }
   bool operator==(const Box&) const = default;
 };
 

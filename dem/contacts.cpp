@@ -163,8 +163,7 @@ PairView PairContacts::shared_view() {
 void PairContacts::fetch_shared(std::size_t block) {
   for (std::uint32_t i = ring_.of_block[block]; i < ring_.of_block[block + 1]; ++i) {
     const SharedEnd& end = ring_.shared[i];
-    for (std::size_t n = 0; n < kEndReals; ++n)
-      ring_forces_.set(end.place * kEndReals + n, kept_forces_[end.kept * kEndReals + n]);
+    ring_forces_.copy(end.place * kEndReals, kept_forces_, end.kept * kEndReals, kEndReals);
   }
 }
 

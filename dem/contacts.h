@@ -155,17 +155,15 @@ struct WallContact {
   std::uint32_t slot, wall;
   ContactState state = ContactState::apart;
   TangentialSpring<double> sliding, rolling;  // zero unless touching
-  Vec3d force;                                // on the grain, valid unless apart [N]
+  Vec3d force{0, 0, 0};                       // on the grain in the last step; zero while apart [N]
 
   bool touching() const { return state == ContactState::touching; }
 };
 
-/// What a wall did to a grain in a step.
+/// What a contact with a wall did in a step beside its force.
 struct WallEffect {
-  Vec3d force{0, 0, 0};   // [N]
+  Vec3d torque{0, 0, 0};  // on the grain [N m]
   double power = 0;       // of the wall's motion [W]; this and the heat only with energies
-  Vec3d torque{0, 0, 0};  // [N m]
-  double unused = 0;
   PairHeat heat;
 };
 

@@ -1,6 +1,7 @@
 // In which number type forces are computed, and storage of that type.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <type_traits>
 
@@ -34,6 +35,14 @@ class Reals {
       floats_[i] = static_cast<float>(value);
     } else {
       doubles_[i] = value;
+    }
+  }
+  /// n numbers of another that holds the same type.
+  void copy(std::size_t to, const Reals& other, std::size_t from, std::size_t n) {
+    if (single_) {
+      std::copy_n(other.floats_.data() + from, n, floats_.data() + to);
+    } else {
+      std::copy_n(other.doubles_.data() + from, n, doubles_.data() + to);
     }
   }
   /// As the kernels see it.

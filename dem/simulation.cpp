@@ -148,9 +148,9 @@ SearchSpace Simulation::search_space() const {
 
 std::size_t Simulation::bytes() const {
   return grains_.bytes() + pair_contacts_.bytes() + wall_contacts_.bytes() +
-         candidates_.capacity() * sizeof(PairRef) + reach_.capacity() * sizeof(float) +
-         path_left_.capacity() * sizeof(double) + built_ids_.capacity() * sizeof(std::int64_t) +
-         energies_.capacity() * sizeof(GrainEnergy);
+         wall_effects_.capacity() * sizeof(WallEffect) + candidates_.capacity() * sizeof(PairRef) +
+         reach_.capacity() * sizeof(float) + path_left_.capacity() * sizeof(double) +
+         built_ids_.capacity() * sizeof(std::int64_t) + energies_.capacity() * sizeof(GrainEnergy);
 }
 
 std::vector<std::uint32_t> Simulation::slots_by_id() const {

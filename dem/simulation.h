@@ -128,8 +128,8 @@ class Simulation {
   void update_lists();
   void rebuild();
   void note_materials();
-  void find_candidates(const std::vector<GrainSite>& sites);
-  void check_periodic_lengths(double largest) const;
+  double longest_reach(double largest) const;
+  void find_candidates(const std::vector<GrainSite>& sites, double longest);
   void sort_grains(std::vector<GrainSite>& sites);
   void refresh(const std::vector<std::uint32_t>& old_slot, const std::vector<GrainSite>& sites);
   Parts parts() const;

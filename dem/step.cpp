@@ -186,7 +186,7 @@ void Simulation::add_walls(std::size_t group, Vec3<Each>& force, Vec3<Each>& tor
     for (std::size_t k = from; k < to; ++k) {
       const std::size_t lane = wall_contacts_.entries[k].slot - first;
       for (std::size_t axis = 0; axis < 3; ++axis) {
-        forces[axis][lane] += wall_effects_[k].force[static_cast<int>(axis)];
+        forces[axis][lane] += wall_contacts_.entries[k].force[static_cast<int>(axis)];
         torques[axis][lane] += wall_effects_[k].torque[static_cast<int>(axis)];
       }
     }

@@ -5,6 +5,7 @@
 // on any of this, only speed does.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "base/error.h"
 #include "base/parallel.h"
@@ -30,6 +31,8 @@ constexpr double kHaste = 1.5;
 constexpr double kLeastReach = 0.001, kGreatestReach = 0.1;
 /// The least long reach, in mean diameters.
 constexpr double kLeastCandidateReach = 0.02;
+/// Reaches are kept in single precision: those that must fit are so much shorter.
+constexpr double kFits = 1 - 1e-6;
 
 }  // namespace
 
@@ -109,14 +112,20 @@ double Simulation::attraction_reach(double largest) const {
   return reach;
 }
 
-void Simulation::check_periodic_lengths(double largest) const {
+/// The longest reach with which no grain is near two images of another [m]. Throws InputError where a
+/// periodic axis leaves none.
+double Simulation::longest_reach(double largest) const {
+  double longest = std::numeric_limits<double>::infinity();
   for (int axis = 0; axis < 3; ++axis) {
+    if (model_.boundary[axis] != AxisBoundary::periodic) continue;
     const double length = model_.domain.hi[axis] - model_.domain.lo[axis];
-    if (model_.boundary[axis] != AxisBoundary::periodic || length > 2 * (2 * largest + attraction_)) continue;
+    longest = std::min(longest, kFits * (0.25 * length - 0.5 * attraction_ - largest));
+    if (longest > 0) continue;
     throw InputError(
         "domain.box: the periodic axis " + std::string(1, "xyz"[axis]) +
         " is shorter than two of the largest grains; make it longer, or the boundary open or a wall");
   }
+  return longest;
 }
 
 /// Now and then, or when grains came or went: neighbours in space beside each other in memory.
@@ -148,7 +157,7 @@ void Simulation::rebuild() {
     grains_.labels()[s].built = sites[s].position();
   }
   note_materials();
-  find_candidates(sites);
+  find_candidates(sites, longest_reach(largest));
   refresh(old_slot, sites);
   list_valid_ = true;
   ++rebuilds_;
@@ -162,16 +171,13 @@ void Simulation::note_materials() {
   });
 }
 
-void Simulation::find_candidates(const std::vector<GrainSite>& sites) {
+void Simulation::find_candidates(const std::vector<GrainSite>& sites, double longest) {
   std::vector<GrainSite> reaching = sites;
   reach_.resize(sites.size());
-  double largest = 0;
   for (std::size_t s = 0; s < sites.size(); ++s) {
-    reach_[s] = static_cast<float>(candidate_reach_of(s));
+    reach_[s] = static_cast<float>(std::min(candidate_reach_of(s), longest));
     reaching[s].radius += static_cast<double>(reach_[s]);
-    largest = std::max(largest, reaching[s].radius);
   }
-  check_periodic_lengths(largest);
   SearchSpace space = search_space();
   space.skin = attraction_;
   candidates_ = options_.reference ? find_pairs_brute_force(reaching, space) : find_pairs(reaching, space);

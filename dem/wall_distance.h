@@ -1,7 +1,6 @@
 // How far a point is from a wall's surface, and in which direction.
 #pragma once
 
-#include <algorithm>
 #include <cmath>
 
 #include "base/shapes.h"
@@ -18,9 +17,7 @@ inline WallDistance wall_distance(const Plane& plane, const Vec3d& p) {
 }
 
 inline WallDistance wall_distance(const Box& box, const Vec3d& p) {
-  const Vec3d nearest{std::clamp(p.x, box.lo.x, box.hi.x), std::clamp(p.y, box.lo.y, box.hi.y),
-                      std::clamp(p.z, box.lo.z, box.hi.z)};
-  const Vec3d away = p - nearest;
+  const Vec3d away = p - box.nearest(p);
   const double d2 = dot(away, away);
   if (d2 > 0) {
     const double d = std::sqrt(d2);

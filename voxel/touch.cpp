@@ -11,11 +11,6 @@ namespace {
 
 double squared(const Vec3d& v) { return dot(v, v); }
 
-Vec3d nearest_in(const Box& box, const Vec3d& p) {
-  return {std::clamp(p.x, box.lo.x, box.hi.x), std::clamp(p.y, box.lo.y, box.hi.y),
-          std::clamp(p.z, box.lo.z, box.hi.z)};
-}
-
 double squared_to_segment(const Vec3d& a, const Vec3d& b, const Vec3d& p) {
   const Vec3d along = b - a;
   const double length = squared(along);
@@ -54,7 +49,7 @@ bool within_reach(const Plane& plane, const Vec3d& center, double reach) {
 }
 
 bool within_reach(const Box& box, const Vec3d& center, double reach) {
-  return squared(center - nearest_in(box, center)) <= reach * reach;
+  return squared(center - box.nearest(center)) <= reach * reach;
 }
 
 bool within_reach(const Ball& ball, const Vec3d& center, double reach) {

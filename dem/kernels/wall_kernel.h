@@ -150,7 +150,6 @@ void evaluate_wall_group(const L& laws, const StepView& v, WallContact* contacts
     torque = select(touching, f.rolling_torque - arm * cross(wall.normal, f.tangential), none);
   const Vec3<P> force = select(touching, f.force, across);
   store_vectors(force, [&](int lane) -> Vec3d& { return contact_at(lane).force; });
-  store_vectors(force, [&](int lane) -> Vec3d& { return effect_at(lane).force; });
   store_vectors(torque, [&](int lane) -> Vec3d& { return effect_at(lane).torque; });
   set_states(s, contacts, count);
   if constexpr (kCountsHeat<L>) {
@@ -159,7 +158,7 @@ void evaluate_wall_group(const L& laws, const StepView& v, WallContact* contacts
     store_heat(s, f, memory, torn, heat);
     for (std::size_t i = 0; i < count; ++i) {
       effects[i].heat = heat[i];
-      effects[i].power = dot(effects[i].force, v.wall_velocities[contacts[i].wall]);
+      effects[i].power = dot(contacts[i].force, v.wall_velocities[contacts[i].wall]);
     }
   }
 }

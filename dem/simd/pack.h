@@ -217,7 +217,7 @@ struct Pack<T, N, true> {
     for (int i = 0; i < N; ++i) r.lanes[i] = std::sqrt(a.lanes[i]);
     return r;
   }
-  /// a b + c and a b - c, each rounded once where the machine can.
+  /// a b + c, rounded once where the machine can.
   friend Pack multiply_add(const Pack& a, const Pack& b, const Pack& c) {
 #ifdef INTERSTICE_AVX512
     if constexpr (sizeof(Lanes) == 64) {
@@ -229,18 +229,6 @@ struct Pack<T, N, true> {
     }
 #endif
     return a * b + c;
-  }
-  friend Pack multiply_subtract(const Pack& a, const Pack& b, const Pack& c) {
-#ifdef INTERSTICE_AVX512
-    if constexpr (sizeof(Lanes) == 64) {
-      if constexpr (std::is_same_v<T, float>) {
-        return _mm512_fmsub_ps(a.lanes, b.lanes, c.lanes);
-      } else {
-        return _mm512_fmsub_pd(a.lanes, b.lanes, c.lanes);
-      }
-    }
-#endif
-    return a * b - c;
   }
   template <class F>
   friend Pack each(const Pack& a, const F& f) {
@@ -281,9 +269,6 @@ struct Pack<T, N, false> {
   }
   friend Pack multiply_add(const Pack& a, const Pack& b, const Pack& c) {
     return {multiply_add(a.lo, b.lo, c.lo), multiply_add(a.hi, b.hi, c.hi)};
-  }
-  friend Pack multiply_subtract(const Pack& a, const Pack& b, const Pack& c) {
-    return {multiply_subtract(a.lo, b.lo, c.lo), multiply_subtract(a.hi, b.hi, c.hi)};
   }
   friend Pack sqrt_of(const Pack& a) { return {sqrt_of(a.lo), sqrt_of(a.hi)}; }
   friend Pack inverse_of(const Pack& a) { return {inverse_of(a.lo), inverse_of(a.hi)}; }
@@ -328,8 +313,8 @@ Pack<T, N> dot(const Vec3<Pack<T, N>>& a, const Vec3<Pack<T, N>>& b) {
 }
 template <class T, int N>
 Vec3<Pack<T, N>> cross(const Vec3<Pack<T, N>>& a, const Vec3<Pack<T, N>>& b) {
-  return {multiply_subtract(a.y, b.z, a.z * b.y), multiply_subtract(a.z, b.x, a.x * b.z),
-          multiply_subtract(a.x, b.y, a.y * b.x)};
+  return {multiply_add(a.y, b.z, -(a.z * b.y)), multiply_add(a.z, b.x, -(a.x * b.z)),
+          multiply_add(a.x, b.y, -(a.y * b.x))};
 }
 
 /// As in contact/numeric.h.

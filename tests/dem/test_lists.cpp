@@ -4,6 +4,7 @@
 
 #include <set>
 
+#include "base/error.h"
 #include "tests/dem/scenes.h"
 
 namespace interstice::dem {
@@ -73,6 +74,35 @@ TEST(Lists, AreNotMadeAnewForOneFastGrain) {
   sim.add_grains({&fast, 1});
   sim.advance(400);
   EXPECT_LT(sim.rebuilds() - before, 12);  // by its 8e-5 m on the way; the least reach would take a hundred
+}
+
+/// However fast: reaches end where a grain would be near two images of another. Of the box only size counts.
+TEST(Lists, OfFastGrainsFitIntoASmallPeriodicBox) {
+  const double r = 1e-5;
+  const auto box_of = [&](double length, double speed) {
+    Model m = testing::plain_model(testing::powder(), {0.9, 0.3, 0.005, 0}, testing::with_friction());
+    m.domain = {{0, 0, 0}, {length, length, length}};
+    m.boundary.fill(AxisBoundary::periodic);
+    Simulation sim(m, 1e-9);
+    NewGrain still, fast;
+    still.radius = fast.radius = r;
+    still.position = {r, r, r};
+    fast.position = {3.2 * r, 1.5 * r, r};
+    fast.velocity = {-speed, 0.4 * speed, 0};
+    const NewGrain grains[] = {still, fast};
+    sim.add_grains(grains);
+    return sim;
+  };
+  Simulation sim = box_of(4.2 * r, 30);
+  std::size_t seen = 0;
+  for (int s = 0; s < 3000; ++s) {
+    sim.advance(1);
+    const Pairs pairs = touching(sim);
+    ASSERT_EQ(pairs, overlapping(sim)) << "step " << sim.step();
+    seen += pairs.size();
+  }
+  EXPECT_GT(seen, 10u);
+  EXPECT_THROW(box_of(3.9 * r, 0).advance(1), InputError);
 }
 
 }  // namespace
