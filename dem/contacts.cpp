@@ -92,14 +92,14 @@ void PairContacts::place_pairs(const std::vector<PairRef>& found, const PairOrde
   }
 }
 
-void PairContacts::replace(const std::vector<PairRef>& found, std::size_t touching,
+void PairContacts::replace(const std::vector<PairRef>& found, const PairClasses& classes,
                            const std::vector<GrainSite>& sites, const std::vector<std::uint32_t>& old_slot,
                            const Parts& parts) {
   const std::vector<GroupBits> old_bits = std::move(bits_);
   Reals old_sliding = std::move(sliding_), old_rolling = std::move(rolling_);
   const OldEnds old_ends{std::move(pairs_), std::move(first_end_), std::move(pair_of_end_)};
   pairs_ = {};
-  place_pairs(found, order_pairs(found, touching, parts, kept_.heat));
+  place_pairs(found, order_pairs(found, classes, parts, kept_.heat));
   if (kept_.sliding) sliding_.reset(kSpringReals * pairs_.size());
   if (kept_.rolling) rolling_.reset(kSpringReals * pairs_.size());
   for_each_block({bits_.size(), kGroupsPerBlock}, [&](std::size_t, std::size_t begin, std::size_t end) {

@@ -78,11 +78,12 @@ class PairContacts {
  public:
   PairContacts(const KeptMemories& kept, Precision precision);
 
-  /// Takes over a new list, those of its pairs that touch now (so many) first; states and springs move with
-  /// their pairs. `old_slot[s]` is where the grain now in slot s stood when the present list was made (or
-  /// kNoSlot); empty: where it is.
-  void replace(const std::vector<PairRef>& found, std::size_t touching, const std::vector<GrainSite>& sites,
-               const std::vector<std::uint32_t>& old_slot, const Parts& parts);
+  /// Takes over a new list, its pairs in the order of their classes; states and springs move with them.
+  /// `old_slot[s]` is where the grain now in slot s stood when the present list was made (or kNoSlot); empty:
+  /// where it is.
+  void replace(const std::vector<PairRef>& found, const PairClasses& classes,
+               const std::vector<GrainSite>& sites, const std::vector<std::uint32_t>& old_slot,
+               const Parts& parts);
 
   /// Places of pairs, listed and empty: the range of the indices below.
   std::size_t places() const { return pairs_.size(); }

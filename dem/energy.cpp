@@ -84,6 +84,7 @@ EnergyBalance energy_balance(const Simulation& sim) {
     sum.gravity += g.gravity;
     sum.walls += g.walls;
     sum.heat += g.heat;
+    sum.stilled += g.stilled;
     sum.carried += g.carried;
   }
   return sum;

@@ -18,6 +18,7 @@ struct GrainEnergy {
   double walls = 0;       // work of moving walls on it
   double wall_power = 0;  // of the walls at the last step [W]
   PairHeat heat;
+  double stilled = 0;  // motion that it lost by falling asleep
   double carried = 0;  // what it took along when it left the domain
 };
 
@@ -28,6 +29,7 @@ struct EnergyBalance {
   double elastic_tangential = 0;  // in sliding springs
   double elastic_rolling = 0;     // in rolling springs
   PairHeat heat;                  // lost since the start, by mechanism
+  double stilled = 0;             // motion of grains that fell asleep
   double inserted = 0, gravity = 0, walls = 0;  // brought in since the start
   double carried = 0;                           // gone with grains that left
 
@@ -35,7 +37,7 @@ struct EnergyBalance {
   /// time step.
   double residual() const {
     return kinetic + elastic_normal + elastic_tangential + elastic_rolling + heat.damping + heat.sliding +
-           heat.rolling + heat.adhesion + carried - inserted - gravity - walls;
+           heat.rolling + heat.adhesion + stilled + carried - inserted - gravity - walls;
   }
 };
 

@@ -34,6 +34,7 @@ void GrainStore::clear() {
   motions_.clear();
   labels_.clear();
   accelerations_.clear();
+  rests_.clear();
 }
 
 void GrainStore::add(const GrainRow& g, const GrainAcceleration& acceleration) {
@@ -48,6 +49,7 @@ void GrainStore::add(const GrainRow& g, const GrainAcceleration& acceleration) {
                       {g.velocity(), 1 / g.mass, g.spin(), 1 / (0.4 * g.mass * g.radius * g.radius)});
   labels_.push_back({g.position(), g.id, g.mass, g.layer});
   accelerations_.push_back(acceleration);
+  if (keeps_rests_) rests_.emplace_back();
 }
 
 void GrainStore::take(std::span<const std::uint32_t> order) {
@@ -60,6 +62,16 @@ void GrainStore::take(std::span<const std::uint32_t> order) {
   motions_ = std::move(motions);
   take_from(labels_, order, order.size());
   take_from(accelerations_, order, order.size());
+  take_from(rests_, order, order.size());
+}
+
+void GrainStore::halt(std::size_t s) {
+  const GrainMotion m = motions_[s / kLanes].at(s % kLanes);
+  motions_[s / kLanes].set(s % kLanes, {{0, 0, 0}, m.inverse_mass, {0, 0, 0}, m.inverse_inertia});
+  with_rows([&](auto& rows) {
+    rows[s].vx = rows[s].vy = rows[s].vz = 0;
+    rows[s].wx = rows[s].wy = rows[s].wz = 0;
+  });
 }
 
 void GrainStore::set_stepping(bool stepping) {
@@ -95,7 +107,8 @@ std::vector<GrainSite> GrainStore::sites() const {
 
 std::size_t GrainStore::bytes() const {
   const auto held = [](const auto& v) { return v.capacity() * sizeof(v[0]); };
-  return held(singles_) + held(doubles_) + held(motions_) + held(labels_) + held(accelerations_);
+  return held(singles_) + held(doubles_) + held(motions_) + held(labels_) + held(accelerations_) +
+         held(rests_);
 }
 
 }  // namespace interstice::dem

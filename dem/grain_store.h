@@ -66,7 +66,8 @@ struct GrainLabel {
 
 class GrainStore {
  public:
-  explicit GrainStore(Precision precision) : single_(precision == Precision::mixed) {}
+  /// `rests`: does it keep how long grains have been at rest?
+  GrainStore(Precision precision, bool rests) : single_(precision == Precision::mixed), keeps_rests_(rests) {}
 
   std::size_t size() const { return labels_.size(); }
   void clear();
@@ -99,6 +100,12 @@ class GrainStore {
   std::vector<GrainAcceleration>& accelerations() { return accelerations_; }
   const std::vector<GrainAcceleration>& accelerations() const { return accelerations_; }
 
+  /// By slot; none unless kept.
+  std::vector<GrainRest>& rests() { return rests_; }
+  const std::vector<GrainRest>& rests() const { return rests_; }
+  /// Takes the motion of a grain away.
+  void halt(std::size_t slot);
+
   /// While steps follow each other velocities are those of the pair rows.
   void set_stepping(bool stepping);
 
@@ -108,13 +115,14 @@ class GrainStore {
   std::size_t bytes() const;
 
  private:
-  bool single_;
+  bool single_, keeps_rests_;
   bool stepping_ = false;
   LargeVector<PairRow<float>> singles_;
   LargeVector<PairRow<double>> doubles_;
   LargeVector<GroupMotion> motions_;
   std::vector<GrainLabel> labels_;
   std::vector<GrainAcceleration> accelerations_;  // empty while steps follow each other
+  std::vector<GrainRest> rests_;
 };
 
 }  // namespace interstice::dem

@@ -30,4 +30,18 @@ struct GrainRow {
   Vec3d spin() const { return {wx, wy, wz}; }
 };
 
+/// How long a grain has been at rest, or that it sleeps (sleepers.h).
+struct GrainRest {
+  /// Awake: where it stood at the first of the checks [m]; asleep: the torque on it since it and its
+  /// neighbours fell asleep [N m].
+  Vec3d reference{0, 0, 0};
+  double push = 0;          // asleep: the speed that it would have picked up since it left balance [m/s]
+  std::int32_t checks = 0;  // in a row that found it standing still
+  bool calm = false;        // at the last check: slow and in balance
+
+  /// Of a sleeper: since a step at which it was looked at, or not looked at yet.
+  static constexpr std::int32_t kAsleep = -1, kJustAsleep = -2;
+  bool asleep() const { return checks < 0; }
+};
+
 }  // namespace interstice::dem

@@ -11,7 +11,7 @@ constexpr std::size_t kRealsPerGrain = 17;
 constexpr std::size_t kIntegersPerGrain = 3;
 constexpr std::size_t kRealsPerWall = 6;
 constexpr std::size_t kRealsPerSpring = 4, kRealsPerContact = 2 * kRealsPerSpring;  // sliding, rolling
-constexpr std::size_t kRealsPerLedger = 9;
+constexpr std::size_t kRealsPerLedger = 10;
 
 void append(std::vector<double>& out, const Vec3d& v) { out.insert(out.end(), {v.x, v.y, v.z}); }
 
@@ -52,6 +52,12 @@ SavedState Simulation::save() const {
     append(grains, a.angular);
     grains.insert(grains.end(), {g.radius, g.mass});
     labels.insert(labels.end(), {g.id, g.material, g.layer});
+    if (rest_) {
+      append(s.real["rest_references"], grains_.rests()[slot].reference);
+      s.real["rest_pushes"].push_back(grains_.rests()[slot].push);
+      s.integer["rest_checks"].insert(s.integer["rest_checks"].end(),
+                                      {grains_.rests()[slot].checks, grains_.rests()[slot].calm});
+    }
     for (const Adjacent& e : pair_contacts_.of(slot)) {
       if (e.second || !pair_contacts_.touching(e.pair)) continue;
       pair_ids.insert(pair_ids.end(), {g.id, grains_.labels()[e.slot].id});
@@ -74,7 +80,7 @@ SavedState Simulation::save() const {
   }
   for (const GrainEnergy& e : energies_) {
     ledger.insert(ledger.end(), {e.inserted, e.gravity, e.walls, e.wall_power, e.carried, e.heat.damping,
-                                 e.heat.sliding, e.heat.rolling, e.heat.adhesion});
+                                 e.heat.sliding, e.heat.rolling, e.heat.adhesion, e.stilled});
   }
   s.real["time_step"] = {dt_};
   s.integer["counters"] = {step_, next_id_, lost_, counted_ids_};
@@ -102,6 +108,7 @@ void Simulation::restore(const SavedState& s) {
                  static_cast<std::int32_t>(labels[3 * i + 2]), static_cast<std::uint16_t>(labels[3 * i + 1])},
                 {vec_at(grains, at + 9), vec_at(grains, at + 12)});
   }
+  if (rest_) restore_rests(s);
   const auto& walls = array_of(s.real, "walls");
   const auto& since = array_of(s.integer, "walls_since");
   if (since.size() != motion_of_wall_.size() || walls.size() != kRealsPerWall * since.size()) {
@@ -119,6 +126,22 @@ void Simulation::restore(const SavedState& s) {
   if (options_.energies) restore_energies(s);
 }
 
+/// Of grains by ascending id, before they are put in another order.
+void Simulation::restore_rests(const SavedState& s) {
+  doubt_ = true;
+  if (grains_.size() == 0) return;
+  const auto& references = array_of(s.real, "rest_references");
+  const auto& pushes = array_of(s.real, "rest_pushes");
+  const auto& checks = array_of(s.integer, "rest_checks");
+  if (checks.size() != 2 * grains_.size() || pushes.size() != grains_.size() ||
+      references.size() != 3 * grains_.size()) {
+    throw InputError("checkpoint: arrays of unequal length; start the run anew");
+  }
+  for (std::size_t i = 0; i < grains_.size(); ++i)
+    grains_.rests()[i] = {vec_at(references, 3 * i), pushes[i], static_cast<std::int32_t>(checks[2 * i]),
+                          checks[2 * i + 1] != 0};
+}
+
 void Simulation::restore_energies(const SavedState& s) {
   energies_.assign(static_cast<std::size_t>(next_id_), {});
   const auto& ledger = array_of(s.real, "energies");
@@ -127,7 +150,7 @@ void Simulation::restore_energies(const SavedState& s) {
   }
   for (std::size_t i = 0; i < energies_.size(); ++i) {
     const double* v = ledger.data() + kRealsPerLedger * i;
-    energies_[i] = {v[0], v[1], v[2], v[3], {v[5], v[6], v[7], v[8]}, v[4]};
+    energies_[i] = {v[0], v[1], v[2], v[3], {v[5], v[6], v[7], v[8]}, v[9], v[4]};
   }
 }
 

@@ -23,7 +23,7 @@ Simulation::Simulation(Model model, double time_step, const SimulationOptions& o
       kernels_(find_kernels(model_.laws, options.precision, options.energies)),
       motion_of_wall_(model_.walls.size()),
       wall_velocities_(model_.walls.size()),
-      grains_(options.precision),
+      grains_(options.precision, options.sleep_tolerance > 0),
       pair_contacts_({keeps_spring(model_.laws), keeps_rolling_spring(model_.laws), options.energies},
                      options.precision) {
   if (!(dt_ > 0) || !std::isfinite(dt_)) throw InputError("time step: must be positive and finite");
@@ -35,6 +35,19 @@ Simulation::Simulation(Model model, double time_step, const SimulationOptions& o
   }
   walls_.resize(model_.walls.size());
   place_walls();
+  if (options_.sleep_tolerance != 0) rest_ = rest_rule();
+}
+
+RestRule Simulation::rest_rule() const {
+  const double gravity = norm(model_.gravity), tolerance = options_.sleep_tolerance;
+  if (!(tolerance > 0 && tolerance <= RestRule::kLargestTolerance))
+    throw InputError("sleep tolerance: " + std::to_string(tolerance) +
+                     " is not a small share of a grain's weight; allowed: above 0, at most 0.1");
+  if (!(gravity > 0))
+    throw InputError(
+        "sleeping grains: without gravity there is no weight to judge rest by; give gravity, or let no grain "
+        "sleep");
+  return {tolerance, gravity, dt_};
 }
 
 /// The engine's own guard, whatever made the grain: nothing that is no number reaches a kernel.
@@ -71,6 +84,7 @@ void Simulation::set_wall_velocity(std::size_t wall, const Vec3d& velocity) {
   WallMotion& m = motion_of_wall_[wall];
   m.offset = offset_at(m.offset, m.velocity, step_ - m.since, dt_);
   m.since = step_;
+  if (!(m.velocity == velocity)) wake_all();
   m.velocity = velocity;
   wall_velocities_[wall] = velocity;
 }
@@ -89,6 +103,7 @@ void Simulation::advance(std::int64_t steps) {
     begun_ = false;
     place_walls();
     update_lists();
+    if (rest_) tend_sleepers();
     evaluate_and_move(s + 1 < steps);
   }
 }
@@ -138,6 +153,7 @@ void Simulation::remove_leavers() {
   lost_ += static_cast<std::int64_t>(grains_.size() - kept.size());
   grains_.take(kept);
   list_valid_ = false;
+  doubt_ = true;
 }
 
 SearchSpace Simulation::search_space() const {
@@ -150,7 +166,8 @@ std::size_t Simulation::bytes() const {
   return grains_.bytes() + pair_contacts_.bytes() + wall_contacts_.bytes() +
          wall_effects_.capacity() * sizeof(WallEffect) + candidates_.capacity() * sizeof(PairRef) +
          reach_.capacity() * sizeof(float) + path_left_.capacity() * sizeof(double) +
-         built_ids_.capacity() * sizeof(std::int64_t) + energies_.capacity() * sizeof(GrainEnergy);
+         built_ids_.capacity() * sizeof(std::int64_t) + sleepers_.bytes() +
+         energies_.capacity() * sizeof(GrainEnergy);
 }
 
 std::vector<std::uint32_t> Simulation::slots_by_id() const {

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -21,6 +22,7 @@
 #include "dem/model.h"
 #include "dem/neighbours.h"
 #include "dem/reals.h"
+#include "dem/sleepers.h"
 
 namespace interstice::dem {
 
@@ -29,6 +31,9 @@ struct SimulationOptions {
   double skin = 0;         // [m]; 0: chosen for each grain from how fast it is
   Precision precision = Precision::real64;
   bool energies = false;  // keep account of every grain's energy (energy.h)
+  /// Grains at rest sleep (sleepers.h), and wake when forces on them are out of balance by this share of
+  /// their weight; 0: none sleeps.
+  double sleep_tolerance = 0;
 };
 
 /// Everything that a run must keep to go on with the same bits: named arrays.
@@ -40,12 +45,12 @@ struct SavedState {
 class Simulation {
  public:
   /// Throws InputError when the model cannot be simulated (a periodic axis shorter than two grains is found
-  /// later, when the grains are known).
+  /// later, when the grains are known), or grains cannot sleep in it.
   Simulation(Model model, double time_step, const SimulationOptions& options = {});
 
   /// Throws InputError for a grain whose numbers are not finite or whose radius is not positive.
   void add_grains(std::span<const NewGrain> grains);
-  /// From the present time on [m/s].
+  /// From the present time on [m/s]. A change wakes all grains.
   void set_wall_velocity(std::size_t wall, const Vec3d& velocity);
 
   /// Advances by whole steps; afterwards positions, velocities and contacts all belong to the present time.
@@ -57,6 +62,7 @@ class Simulation {
   double time() const { return static_cast<double>(step_) * dt_; }
   double time_step() const { return dt_; }
   std::size_t grains() const { return grains_.size(); }
+  std::size_t grains_asleep() const;
   std::int64_t grains_added() const { return next_id_; }
   std::int64_t grains_lost() const { return lost_; }
   const Model& model() const { return model_; }
@@ -100,6 +106,7 @@ class Simulation {
   };
 
   void check_grain(const NewGrain& grain) const;
+  RestRule rest_rule() const;
   void place_walls();
   double wall_travel() const;
   void begin_step();
@@ -108,11 +115,11 @@ class Simulation {
   template <class Real>
   void begin_group(PairRow<Real>* rows, std::size_t group, const GroupState& now, PassReport& report);
   void end_group(std::size_t group, const GroupState& now);
-  template <class Real>
+  template <bool kSleep, class Real>
   PassReport move_rows(PairRow<Real>* rows, const StepView& view, std::size_t begin, std::size_t end,
                        bool begin_next);
   void evaluate_and_move(bool begin_next);
-  template <class Real>
+  template <bool kSleep, class Real>
   void evaluate_and_move(PairRow<Real>* rows, bool begin_next);
   template <class Real>
   bool wrap_or_leave(PairRow<Real>& row, GrainLabel& label) const;
@@ -135,19 +142,41 @@ class Simulation {
   Parts parts() const;
   void restore_springs(const SavedState& state);
   void restore_energies(const SavedState& state);
+  void restore_rests(const SavedState& state);
   double attraction_reach(double largest) const;
   StepView step_view(const PairView& pairs) const;
   void count_inserted_contacts();
   double inserted_on_wall(const GrainRow& grain, const WallContact& contact) const;
-  template <class Row>
-  void evaluate_pairs(const StepView& view, std::size_t begin, std::size_t end, const Row* ahead,
-                      const Row* ahead_end);
+  template <bool kSleep, class Real>
+  void evaluate_pairs(const StepView& view, std::size_t begin, std::size_t end, const PairRow<Real>* ahead,
+                      const PairRow<Real>* ahead_end);
   void evaluate_walls(const StepView& view, std::size_t begin, std::size_t end);
   void add_walls(std::size_t group, Vec3<Each>& force, Vec3<Each>& torque);
   void add_lifting(std::size_t first, const Vec3<Each>& step);
   void add_heat(std::size_t i);
   std::size_t id_of(std::size_t slot) const { return static_cast<std::size_t>(grains_.labels()[slot].id); }
   void note_leaver(std::size_t i);
+  void wake_all();
+  void put_awake_first(std::vector<std::uint32_t>& order) const;
+  std::vector<bool> moving_walls() const;
+  void tend_sleepers();
+  void fall_asleep();
+  bool is_frozen(const WallContact& contact) const;
+  bool spares(std::size_t begin, std::size_t end) const;
+  bool is_needed(std::size_t group) const { return watch_all_ || sleepers_.needed(group, looks_); }
+  bool spares_pairs(std::size_t begin, std::size_t end) const;
+  template <class Real>
+  void evaluate_frozen(const StepView& view, std::size_t group);
+  template <class Real>
+  void evaluate_needed(const StepView& view, std::size_t begin, std::size_t end);
+  void evaluate_needed_walls(const StepView& view, std::size_t begin, std::size_t end);
+  template <class Real>
+  void wake_disturbed(const PairRow<Real>* rows, std::size_t group, std::uint32_t watched,
+                      const Vec3<Each>& torque, const GroupState& now);
+  template <class Real>
+  void count_rest(const PairRow<Real>* rows, std::size_t group, const GroupState& now);
+  template <class Real>
+  void judge_rest(const PairRow<Real>* rows, std::size_t group, const Vec3<Each>& torque, GroupState& now);
 
   Model model_;
   double dt_;
@@ -170,6 +199,14 @@ class Simulation {
   std::int64_t lost_ = 0;
   std::vector<GrainEnergy> energies_;  // by id; empty unless kept
   std::int64_t counted_ids_ = 0;       // grains below have had their first step
+
+  std::optional<RestRule> rest_;  // where grains may sleep
+  Sleepers sleepers_;
+  bool survey_due_ = true;  // who sleeps or the lists have changed
+  bool doubt_ = true;       // sleepers may have lost a contact: the next step looks at all
+  std::size_t turned_ = 0;  // how many fell asleep or woke since grains were last put in order
+  bool looks_ = false;      // this step looks at those watched
+  bool watch_all_ = false;  // this step works on all
 
   bool list_valid_ = false;
   bool begun_ = false;                   // the step after step_ has been begun

@@ -110,17 +110,36 @@ StepView Simulation::step_view(const PairView& pairs) const {
 void Simulation::evaluate_and_move(bool begin_next) {
   if (!begin_next) grains_.accelerations().resize(grains_.size());
   pair_contacts_.keep_forces(!begin_next || options_.energies);
-  grains_.with_rows([&](auto& rows) { evaluate_and_move(rows.data(), begin_next); });
+  grains_.with_rows([&](auto& rows) {
+    if (!rest_) return evaluate_and_move<false>(rows.data(), begin_next);
+    looks_ = RestRule::is_look(step_);
+    watch_all_ = (looks_ && doubt_) || !begin_next || options_.energies || options_.reference;
+    doubt_ = doubt_ && !looks_;
+    evaluate_and_move<true>(rows.data(), begin_next);
+    sleepers_.spread_waking(pair_contacts_);
+  });
   grains_.set_stepping(begin_next);
 }
 
-template <class Real>
+/// Can a step leave out the slots [begin, end), because all there sleep and nothing stirs near them?
+bool Simulation::spares(std::size_t begin, std::size_t end) const {
+  return !watch_all_ && sleepers_.idle(begin, end, looks_);
+}
+
+bool Simulation::spares_pairs(std::size_t begin, std::size_t end) const {
+  while (begin < end && !is_needed(begin)) ++begin;
+  return begin == end;
+}
+
+template <bool kSleep, class Real>
 void Simulation::evaluate_and_move(PairRow<Real>* rows, bool begin_next) {
+  if (kSleep && !watch_all_ && sleepers_.all_idle()) return take_report({});
   const StepView shared = step_view(pair_contacts_.shared_view()), view = step_view(pair_contacts_.view());
   const Sweep& sweep = pair_contacts_.sweep();
   std::vector<PassReport> reports(sweep.parts.blocks());
   wall_effects_.resize(wall_contacts_.entries.size());
   for_blocks({sweep.shared_groups, kGroupsPerTask}, [&](std::size_t, std::size_t begin, std::size_t end) {
+    if constexpr (kSleep) return evaluate_needed<Real>(shared, begin, end);
     kernels_.pairs(model_.laws, shared, begin, end);
   });
   if (options_.energies) count_inserted_contacts();
@@ -129,13 +148,18 @@ void Simulation::evaluate_and_move(PairRow<Real>* rows, bool begin_next) {
     std::size_t group = sweep.first_group[part];
     for (std::size_t b = sweep.parts.first_block[part]; b < sweep.parts.first_block[part + 1]; ++b) {
       const bool last = b + 1 == sweep.parts.first_block[part + 1];
-      evaluate_pairs(view, group, sweep.done_before[b], rows + sweep.front[b],
-                     rows + sweep.front[last ? b : b + 1]);
+      evaluate_pairs<kSleep, Real>(view, group, sweep.done_before[b], rows + sweep.front[b],
+                                   rows + sweep.front[last ? b : b + 1]);
       group = sweep.done_before[b];
-      pair_contacts_.fetch_shared(b);
       const std::size_t begin = sweep.parts.begin_row(b), end = sweep.parts.end_row(b);
-      evaluate_walls(view, begin, end);
-      reports[b] = move_rows(rows, view, begin, end, begin_next);
+      if (kSleep && spares(begin, end)) continue;
+      pair_contacts_.fetch_shared(b);
+      if constexpr (kSleep) {
+        evaluate_needed_walls(view, begin, end);
+      } else {
+        evaluate_walls(view, begin, end);
+      }
+      reports[b] = move_rows<kSleep>(rows, view, begin, end, begin_next);
     }
   };
   if (options_.reference || sweep.parts.count() == 1) {
@@ -153,17 +177,22 @@ void Simulation::evaluate_and_move(PairRow<Real>* rows, bool begin_next) {
 
 /// Evaluates groups of pairs and asks meanwhile for the rows [ahead, ahead_end), which later pairs are the
 /// first to touch: they follow each other in memory, but are not touched in that order.
-template <class Row>
-void Simulation::evaluate_pairs(const StepView& view, std::size_t begin, std::size_t end, const Row* ahead,
-                                const Row* ahead_end) {
+template <bool kSleep, class Real>
+void Simulation::evaluate_pairs(const StepView& view, std::size_t begin, std::size_t end,
+                                const PairRow<Real>* ahead, const PairRow<Real>* ahead_end) {
   const auto* line = reinterpret_cast<const char*>(ahead);
   const auto* const last = reinterpret_cast<const char*>(ahead_end);
   for (std::size_t group = begin; group < end; group += kGroupsAtOnce) {
     const std::size_t until = std::min(end, group + kGroupsAtOnce);
+    if (kSleep && spares_pairs(group, until)) continue;
     const auto* const share = line + (last - line) * static_cast<std::ptrdiff_t>(until - group) /
                                          static_cast<std::ptrdiff_t>(end - group);
     for (; line < share; line += 64) __builtin_prefetch(line, 1, 2);
-    kernels_.pairs(model_.laws, view, group, until);
+    if constexpr (kSleep) {
+      evaluate_needed<Real>(view, group, until);
+    } else {
+      kernels_.pairs(model_.laws, view, group, until);
+    }
   }
 }
 
@@ -198,7 +227,7 @@ void Simulation::add_walls(std::size_t group, Vec3<Each>& force, Vec3<Each>& tor
 }
 
 /// Collects the forces of some grains, completes their velocities, and begins the next step.
-template <class Real>
+template <bool kSleep, class Real>
 [[gnu::flatten]] Simulation::PassReport Simulation::move_rows(PairRow<Real>* rows, const StepView& view,
                                                               std::size_t begin, std::size_t end,
                                                               bool begin_next) {
@@ -206,6 +235,7 @@ template <class Real>
   const auto* const ends = static_cast<const Real*>(view.pairs.end_forces);
   const Vec3<Each> gravity = all_of(model_.gravity);
   for (std::size_t g = begin / kLanes; g < groups_for(end); ++g) {
+    if (kSleep && spares(g * kLanes, (g + 1) * kLanes)) continue;
     const auto sums = end_sums(ends, pair_contacts_.end_rows(g), pair_contacts_.end_counts() + g * kLanes);
     Vec3<Each> force = simd::converted<double>(sums.force), torque = simd::converted<double>(sums.torque);
     add_walls(g, force, torque);
@@ -215,6 +245,7 @@ template <class Real>
     now.angular = Each::load(m.inverse_inertia) * torque;
     now.velocity = half_step(load(m.vx, m.vy, m.vz), now.acceleration, 0.5 * dt_);
     now.spin = half_step(load(m.wx, m.wy, m.wz), now.angular, 0.5 * dt_);
+    if constexpr (kSleep) judge_rest(rows, g, torque, now);
     if (begin_next) {
       begin_group(rows, g, now, report);
     } else {

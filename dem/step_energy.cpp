@@ -18,12 +18,13 @@ void Simulation::add_lifting(std::size_t first, const Vec3<Each>& step) {
 void Simulation::add_heat(std::size_t i) {
   GrainEnergy& e = energies_[id_of(i)];
   for (const Adjacent& partner : pair_contacts_.of(i)) {
+    if (rest_ && (sleepers_.frozen(partner.pair / kLanes) >> partner.pair % kLanes & 1) != 0) continue;
     const PairHeat& heat = pair_contacts_.heat(partner.pair);
     e.heat += {0.5 * heat.damping, 0.5 * heat.sliding, 0.5 * heat.rolling, 0.5 * heat.adhesion};
   }
   double power = 0;
   for (std::size_t k = wall_contacts_.before(i); k < wall_contacts_.before(i + 1); ++k) {
-    e.heat += wall_effects_[k].heat;
+    if (!is_frozen(wall_contacts_.entries[k])) e.heat += wall_effects_[k].heat;
     power += wall_effects_[k].power;
   }
   e.walls += 0.5 * dt_ * (e.wall_power + power);

@@ -14,11 +14,11 @@ Parts::Parts(std::size_t rows_, std::size_t count) : rows(rows_) {
 namespace {
 
 /// The order of pairs: shared ones first, by their earlier row; then block after block of their earlier rows,
-/// in each block pairs that touch before those that are only near, which so fill groups of their own that are
-/// soon done.
+/// in each block pairs that touch before those that are only near, and pairs of sleepers last: these fill
+/// groups of their own that are soon done.
 class PairKeys {
  public:
-  PairKeys(const std::vector<PairRef>& pairs, std::size_t touching, const Parts& parts, bool all_shared)
+  PairKeys(const std::vector<PairRef>& pairs, const PairClasses& classes, const Parts& parts, bool all_shared)
       : shared_keys_(parts.blocks() * kRowsPerBlock), of_pair_(pairs.size()) {
     std::vector<std::uint16_t> part_of_block(parts.blocks());
     for (std::size_t p = 0; p < parts.count(); ++p)
@@ -30,16 +30,18 @@ class PairKeys {
       const auto [first, last] = std::minmax(pairs[k].a, pairs[k].b);
       const bool shared = all_shared || last - first > farthest ||
                           part_of_block[first / kRowsPerBlock] != part_of_block[last / kRowsPerBlock];
-      const std::size_t near = k < touching ? 0 : kRowsPerBlock;
       of_pair_[k] = static_cast<std::uint32_t>(
-          shared ? first : begin_of(first / kRowsPerBlock) + near + first % kRowsPerBlock);
+          shared ? first
+                 : begin_of(first / kRowsPerBlock) + classes.of(k) * kRowsPerBlock + first % kRowsPerBlock);
     }
   }
 
   std::uint32_t of_pair(std::size_t k) const { return of_pair_[k]; }
   bool is_shared(std::size_t k) const { return of_pair_[k] < shared_keys_; }
   /// Keys of unshared pairs of a block.
-  std::size_t begin_of(std::size_t block) const { return shared_keys_ + 2 * kRowsPerBlock * block; }
+  std::size_t begin_of(std::size_t block) const {
+    return shared_keys_ + PairClasses::kCount * kRowsPerBlock * block;
+  }
   std::size_t count(std::size_t blocks) const { return begin_of(blocks); }
 
  private:
@@ -65,9 +67,9 @@ std::vector<std::size_t> find_front(const std::vector<PairRef>& pairs, const Pai
 
 }  // namespace
 
-PairOrder order_pairs(const std::vector<PairRef>& pairs, std::size_t touching, const Parts& parts,
+PairOrder order_pairs(const std::vector<PairRef>& pairs, const PairClasses& classes, const Parts& parts,
                       bool all_shared) {
-  const PairKeys keys(pairs, touching, parts, all_shared);
+  const PairKeys keys(pairs, classes, parts, all_shared);
   std::vector<std::uint32_t> start(keys.count(parts.blocks()), 0);  // a counting sort
   for (std::size_t k = 0; k < pairs.size(); ++k) ++start[keys.of_pair(k)];
   PairOrder order;

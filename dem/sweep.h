@@ -50,9 +50,17 @@ struct PairOrder {
   std::size_t places = 0;            // a multiple of kLanes
 };
 
-/// `touching`: so many pairs, the first ones, may touch now. `all_shared`: every pair is done before any
-/// grain moves.
-PairOrder order_pairs(const std::vector<PairRef>& pairs, std::size_t touching, const Parts& parts,
+/// Pairs in the order of what a step has to do with them: those that may touch now end before `touching`,
+/// those that are only near before `near`; pairs of sleepers follow.
+struct PairClasses {
+  std::size_t touching = 0, near = 0;
+
+  std::size_t of(std::size_t k) const { return k < touching ? 0 : k < near ? 1 : 2; }
+  static constexpr std::size_t kCount = 3;
+};
+
+/// `all_shared`: every pair is done before any grain moves.
+PairOrder order_pairs(const std::vector<PairRef>& pairs, const PairClasses& classes, const Parts& parts,
                       bool all_shared);
 
 }  // namespace interstice::dem

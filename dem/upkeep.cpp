@@ -4,6 +4,7 @@
 // speed, so that a few fast grains above a bed at rest do not cost new lists of the bed. Bits do not depend
 // on any of this, only speed does.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -132,7 +133,8 @@ double Simulation::longest_reach(double largest) const {
 void Simulation::sort_grains(std::vector<GrainSite>& sites) {
   if (sorted_at_ >= 0 && sites.size() == built_ids_.size() && rebuilds_ - sorted_at_ < kRebuildsPerSort)
     return;
-  const std::vector<std::uint32_t> order = order_in_space(sites);
+  std::vector<std::uint32_t> order = order_in_space(sites);
+  if (rest_) put_awake_first(order);
   grains_.take(order);
   sites = grains_.sites();
   sorted_at_ = rebuilds_;
@@ -194,23 +196,31 @@ void Simulation::refresh(const std::vector<std::uint32_t>& old_slot, const std::
     reaching[s].radius += path_left_[s];
   }
   const Blocks blocks{candidates_.size(), 4096};
-  std::vector<std::vector<PairRef>> touching(blocks.count()), near(blocks.count());
+  std::array<std::vector<std::vector<PairRef>>, PairClasses::kCount> by_class;
+  by_class.fill(std::vector<std::vector<PairRef>>(blocks.count()));
+  const auto sleeps = [&](std::uint32_t slot) { return rest_ && grains_.rests()[slot].asleep(); };
   for_each_block(blocks, [&](std::size_t b, std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) {
       const PairRef& c = candidates_[k];
       if (!are_near(reaching[c.a], reaching[c.b], space)) continue;
-      (are_near(sites[c.a], sites[c.b], space) ? touching : near)[b].push_back(c);
+      const std::size_t rank = sleeps(c.a) && sleeps(c.b)                ? 2
+                               : are_near(sites[c.a], sites[c.b], space) ? 0
+                                                                         : 1;
+      by_class[rank][b].push_back(c);
     }
   });
   std::vector<PairRef> pairs;
   pairs.reserve(candidates_.size());
-  for (const auto& t : touching) pairs.insert(pairs.end(), t.begin(), t.end());
-  const std::size_t touch = pairs.size();
-  for (const auto& n : near) pairs.insert(pairs.end(), n.begin(), n.end());
-  pair_contacts_.replace(pairs, touch, sites, old_slot, parts());
+  std::array<std::size_t, PairClasses::kCount> end;
+  for (std::size_t rank = 0; rank < by_class.size(); ++rank) {
+    for (const auto& block : by_class[rank]) pairs.insert(pairs.end(), block.begin(), block.end());
+    end[rank] = pairs.size();
+  }
+  pair_contacts_.replace(pairs, {end[0], end[1]}, sites, old_slot, parts());
   reach_of_walls_ = near_reach_of_walls();
   wall_contacts_.replace(reaching, walls_, reach_of_walls_ + attraction_, old_slot);
   refreshed_walls_ = walls_;
+  survey_due_ = true;
   strayed_ = false;
 }
 

@@ -284,6 +284,13 @@ void check_time_step(const Checker& check) {
                "0.1 to 0.3 is usual: shorten it, or give fractions instead");
 }
 
+void check_sleeping(const Checker& check) {
+  const Vec3d& g = check.scene.domain.gravity;
+  if (check.scene.step.sleeping && g.x == 0 && g.y == 0 && g.z == 0)
+    check.error("time.sleeping", "is true, and there is no gravity to tell a grain at rest by its weight",
+                "it is allowed with a gravity above 0 m/s^2", "give domain.gravity, or drop this key");
+}
+
 }  // namespace
 
 void check_scene(const Scene& scene, const Value& document, Problems& problems) {
@@ -293,6 +300,7 @@ void check_scene(const Scene& scene, const Value& document, Problems& problems) 
   check_particles(check);
   check_periodic_walls(check);
   check_time_step(check);
+  check_sleeping(check);
   for (std::size_t i = 0; i < scene.fields.size(); ++i)
     check_inside(check, check.path("fields", i) + ".box", scene.fields[i].box,
                  "make it smaller, or the domain larger");

@@ -131,6 +131,8 @@ std::vector<Phase> read_phases(const TableReader& root) {
 TimeStep read_time_step(const TableReader& time) {
   TimeStep step;
   step.allow_unstable = time.boolean("allow_unstable");
+  step.sleeping = time.boolean("sleeping");
+  step.sleep_tolerance = time.quantity("sleep_tolerance");
   const Value* value = time.raw("step");
   if (value && value->kind != Value::Kind::table) {
     const Key key{.name = "step",

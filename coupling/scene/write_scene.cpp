@@ -240,6 +240,8 @@ void write_time(Writer& out, const Scene& scene) {
                                 number(step.collision, Dimension::dimensionless)));
   }
   out.flag("allow_unstable", step.allow_unstable);
+  out.flag("sleeping", step.sleeping);
+  out.quantity("sleep_tolerance", step.sleep_tolerance, Dimension::dimensionless);
   out.raw("seed", fmt::format("{}", scene.seed));
 }
 

@@ -100,7 +100,8 @@ Run::Run(const scene::Scene& scene, const RunOptions& options)
       sim_(relative_to(origin_, model_), choice_.step,
            {.reference = options.reference,
             .precision = options.mixed ? dem::Precision::mixed : dem::Precision::real64,
-            .energies = scene.output.energy}),
+            .energies = scene.output.energy,
+            .sleep_tolerance = scene.step.sleeping ? scene.step.sleep_tolerance : 0}),
       rains_(build_rain(scene, origin_)),
       fingerprint_(scene::resolved_toml(scene)),
       checkpoint_mark_(fingerprint_ + "# precision: " + options.precision + "\n"),
@@ -387,8 +388,8 @@ RunResult Run::go() {
   const double checkpoint_seconds =
       scene_.output.checkpoint > 0 ? scene_.output.checkpoint : kDefaultCheckpointSeconds;
   while (state_.phase < scene_.phases.size()) {
-    std::int64_t chunk =
-        1 + static_cast<std::int64_t>(kPollSeconds * 4e6 / (static_cast<double>(sim_.grains()) + 50));
+    const auto awake = static_cast<double>(sim_.grains() - sim_.grains_asleep());
+    const auto chunk = 1 + static_cast<std::int64_t>(kPollSeconds * 4e6 / (awake + 50));
     advance_to(std::min(next_event(), sim_.step() + chunk));
     pour_rain();
     if (sim_.step() % kStepsPerGuard == 0 || sim_.step() == 1) guard();  // placed grains may overlap already

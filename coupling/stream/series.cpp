@@ -26,7 +26,9 @@ std::string header_of(const scene::Scene& scene) {
       line += "," + scene.walls[w].name + "_" + column;
     }
   }
+  if (scene.step.sleeping) line += ",particles_asleep";
   if (scene.output.energy) {
+    if (scene.step.sleeping) line += ",energy_stilled_J";
     line +=
         ",energy_kinetic_J,energy_elastic_normal_J,energy_elastic_tangential_J,energy_elastic_rolling_J,"
         "heat_damping_J,heat_sliding_J,heat_rolling_J,heat_adhesion_J,energy_inserted_J,work_gravity_J,"
@@ -35,8 +37,7 @@ std::string header_of(const scene::Scene& scene) {
   return line;
 }
 
-std::string energy_cells(const dem::Simulation& sim) {
-  const dem::EnergyBalance e = dem::energy_balance(sim);
+std::string energy_cells(const dem::EnergyBalance& e) {
   return fmt::format(",{},{},{},{},{},{},{},{},{},{},{},{},{}", e.kinetic, e.elastic_normal,
                      e.elastic_tangential, e.elastic_rolling, e.heat.damping, e.heat.sliding, e.heat.rolling,
                      e.heat.adhesion, e.inserted, e.gravity, e.walls, e.carried, e.residual());
@@ -47,6 +48,7 @@ std::string energy_cells(const dem::Simulation& sim) {
 Series::Series(const std::filesystem::path& path, const scene::Scene& scene, std::optional<double> keep_until)
     : watched_(watched_walls(scene)),
       energies_(scene.output.energy),
+      sleeping_(scene.step.sleeping),
       table_(path, header_of(scene), keep_until) {}
 
 void Series::sample(const dem::Simulation& sim) {
@@ -62,7 +64,12 @@ void Series::sample(const dem::Simulation& sim) {
     line += fmt::format(",{},{},{},{},{},{},{}", s.normal_force, s.shear_force, s.shear_force_sum, s.contacts,
                         s.particles, s.contact_area, s.footprint_area);
   }
-  if (energies_) line += energy_cells(sim);
+  if (sleeping_) line += fmt::format(",{}", sim.grains_asleep());
+  if (energies_) {
+    const dem::EnergyBalance e = dem::energy_balance(sim);
+    if (sleeping_) line += fmt::format(",{}", e.stilled);
+    line += energy_cells(e);
+  }
   table_.append(line);
 }
 

@@ -22,7 +22,7 @@ class Series {
 
  private:
   std::vector<std::size_t> watched_;  // walls
-  bool energies_;                     // are there columns of energies?
+  bool energies_, sleeping_;          // are there columns of energies, of grains asleep?
   GrowingTable table_;
 };
 

@@ -188,6 +188,7 @@ TEST(Resolved, ReadsBackBitForBit) {
                            "walls.0.shape.plane.normal=[0.1, -0.0, 3.3]",
                            "walls.0.shape.plane.point=[\"-0 m\", \"0 m\", \"0 m\"]"}));
   expect_same_after_resolving(read(kExampleScene, {"output.energy=true", "time.allow_unstable=true",
+                                                   "time.sleeping=true", "time.sleep_tolerance=0.01",
                                                    "walls.1.shape={box={lo=[\"0.1 mm\",\"0 m\",\"0 m\"],"
                                                    "hi=[\"0.3 mm\",\"1 mm\",\"1 mm\"]}}"}));
 }
