@@ -11,6 +11,7 @@ endif()
 if(INTERSTICE_SANITIZE)
   target_compile_options(interstice_options INTERFACE "-fsanitize=${INTERSTICE_SANITIZE}" -fno-omit-frame-pointer
                                                       -fno-sanitize-recover=all)
+  target_compile_definitions(interstice_options INTERFACE INTERSTICE_SANITIZED)
   target_link_options(interstice_options INTERFACE "-fsanitize=${INTERSTICE_SANITIZE}")
 endif()
 

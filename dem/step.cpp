@@ -7,6 +7,7 @@
 
 #include "base/parallel.h"
 #include "dem/end_sums.h"
+#include "dem/flatten.h"
 #include "dem/simulation.h"
 
 namespace interstice::dem {
@@ -228,9 +229,9 @@ void Simulation::add_walls(std::size_t group, Vec3<Each>& force, Vec3<Each>& tor
 
 /// Collects the forces of some grains, completes their velocities, and begins the next step.
 template <bool kSleep, class Real>
-[[gnu::flatten]] Simulation::PassReport Simulation::move_rows(PairRow<Real>* rows, const StepView& view,
-                                                              std::size_t begin, std::size_t end,
-                                                              bool begin_next) {
+INTERSTICE_FLATTEN Simulation::PassReport Simulation::move_rows(PairRow<Real>* rows, const StepView& view,
+                                                                std::size_t begin, std::size_t end,
+                                                                bool begin_next) {
   PassReport report;
   const auto* const ends = static_cast<const Real*>(view.pairs.end_forces);
   const Vec3<Each> gravity = all_of(model_.gravity);

@@ -2,6 +2,7 @@
 // pair is a mask or a select, so that a pair's bits do not depend on its neighbours in the list.
 #pragma once
 
+#include "dem/flatten.h"
 #include "dem/kernels/contact_group.h"
 #include "dem/kernels/rows.h"
 
@@ -129,7 +130,8 @@ void evaluate_group(const L& laws, const StepView& v, const PairConstants<simd::
 }
 
 template <class L, class Real>
-[[gnu::flatten]] void evaluate_groups(const L& laws, const StepView& v, std::size_t begin, std::size_t end) {
+INTERSTICE_FLATTEN void evaluate_groups(const L& laws, const StepView& v, std::size_t begin,
+                                        std::size_t end) {
   using P = simd::Pack<Real, kLanes>;
   const simd::FlushTinyNumbers flush;
   if (v.only_material >= 0) {

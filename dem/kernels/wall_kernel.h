@@ -2,6 +2,7 @@
 // and heavy: R* = R, m* = m.
 #pragma once
 
+#include "dem/flatten.h"
 #include "dem/kernels/contact_group.h"
 #include "dem/kernels/rows.h"
 #include "dem/wall_distance.h"
@@ -164,8 +165,8 @@ void evaluate_wall_group(const L& laws, const StepView& v, WallContact* contacts
 }
 
 template <class L, class Real>
-[[gnu::flatten]] void evaluate_walls(const L& laws, const StepView& v, std::span<WallContact> contacts,
-                                     WallEffect* effects) {
+INTERSTICE_FLATTEN void evaluate_walls(const L& laws, const StepView& v, std::span<WallContact> contacts,
+                                       WallEffect* effects) {
   const simd::FlushTinyNumbers flush;
   for (std::size_t first = 0; first < contacts.size(); first += kLanes) {
     evaluate_wall_group<L, Real>(laws, v, contacts.data() + first, std::min(kLanes, contacts.size() - first),
