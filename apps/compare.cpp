@@ -1,4 +1,4 @@
-// `interstice compare DIR_A DIR_B -o DIR`: two runs side by side.
+// `interstice compare DIR_A DIR_B -o DIR`: two runs, or what `voids` made of two files, side by side.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -94,9 +94,11 @@ void compare(const CompareWords& words) {
 
 void add_compare(CLI::App& root) {
   auto words = std::make_shared<CompareWords>();
-  auto* c =
-      root.add_subcommand("compare", "Two runs side by side: numbers, figures, difference of their fields");
-  c->add_option("A", words->a, "folder that `interstice run` wrote")->required();
+  auto* c = root.add_subcommand("compare",
+                                "Two runs, or two particle files by their fields, side by side: numbers, "
+                                "figures, difference of their fields");
+  c->add_option("A", words->a, "folder that `interstice run` wrote, or `interstice voids` of one frame")
+      ->required();
   c->add_option("B", words->b, "another; differences are B - A, ratios B / A")->required();
   c->add_option("-o,--output", words->output, "folder for the results")->required();
   c->add_option("--labels", words->labels, "names of A and B in figures and text, such as static,compactors")

@@ -80,7 +80,8 @@ constexpr double units_of_width = 1100, pixels_per_unit = 1600 / units_of_width,
 // drawn.
 constexpr const char* pdf_tics = "; set xtics offset 0,0.5; set ytics offset 0.6,0; set cbtics offset -0.7,0";
 
-// Fonts and lines scale with the canvas, so that all kinds look alike.
+// Fonts and lines scale with the canvas, so that all kinds look alike. Letters in PNG and PDF come out 4/3 as
+// large as gnuplot is told: Pango takes 96 dots an inch.
 std::string terminals(const Drawing& drawing) {
   const double points_per_unit = cm_per_unit / 2.54 * 72, letters = 1.16;  // units a point of the layout
   const long width = std::lround(drawing.width * pixels_per_unit),
@@ -94,8 +95,8 @@ std::string terminals(const Drawing& drawing) {
       "if (kind eq 'svg') set terminal svg noenhanced size {0},{1} dynamic font 'DejaVu Sans,15' "
       "fontscale {8:.4f} linewidth {3:.3f} background '#ffffff'\n",
       width, height, 0.75 * letters * pixels_per_unit, 1.3 * pixels_per_unit, drawing.width * cm_per_unit,
-      drawing.height * cm_per_unit, letters * points_per_unit, 2 * points_per_unit, letters * pixels_per_unit,
-      pdf_tics);
+      drawing.height * cm_per_unit, 0.75 * letters * points_per_unit, 2 * points_per_unit,
+      letters * pixels_per_unit, pdf_tics);
 }
 
 // Names begin with ./ because gnuplot takes a leading < or | for a command to run.
@@ -106,6 +107,7 @@ std::string script_head(const std::string& stem, const Drawing& drawing) {
       "if (!exists('kind')) kind = 'png'\n"
       "if (!exists('target')) target = {1}\n"
       "data = {2}\n"
+      "cells = kind eq 'pdf' ? 'image pixels' : 'image'   # viewers smooth bitmaps in a PDF\n"
       "set encoding utf8\n"
       "{3}set output target\n",
       on_one_line(stem), string_literal("./" + stem + ".png"), string_literal("./" + stem + ".dat"),

@@ -91,9 +91,9 @@ std::string x_label(const Canvas& canvas, const Frame& frame, std::string_view t
                         "center"});
 }
 
-std::string y_label(const Canvas& canvas, const Frame& frame, std::string_view text) {
+std::string y_label(const Canvas& canvas, const Frame& frame, std::string_view text, double away) {
   return write(canvas,
-               {frame.left - 80, frame.top + 0.5 * frame.height, std::string(text), 15, "center rotate"});
+               {frame.left - away, frame.top + 0.5 * frame.height, std::string(text), 15, "center rotate"});
 }
 
 std::string colour_bar(const Canvas& canvas, const Frame& frame, std::string_view label) {
@@ -126,6 +126,11 @@ std::string foot_note(const Canvas& canvas, double left, const std::string& text
   return write(canvas,
                {left, canvas.height - foot_note_height(canvas, left, text) + note_line,
                 wrapped(text, note_size, canvas.width - left - 10), note_size, "left tc rgb '#404040'"});
+}
+
+std::string cells_style(std::size_t cells) {
+  constexpr std::size_t most_in_vectors = 50'000;  // some 0.8 MB
+  return cells <= most_in_vectors ? "@cells" : "image";
 }
 
 LengthUnit length_unit(double extent) {

@@ -49,11 +49,15 @@ std::string foot_note(const Canvas& canvas, double left, const std::string& text
 double foot_note_height(const Canvas& canvas, double left, const std::string& text);
 
 /// Labels of a plot's axes, at places of our own: gnuplot's depend on the kind of figure and on the tics.
+/// That of the y axis stands `away` from it, which suffices for tics of five letters.
 std::string x_label(const Canvas& canvas, const Frame& frame, std::string_view text);
-std::string y_label(const Canvas& canvas, const Frame& frame, std::string_view text);
+std::string y_label(const Canvas& canvas, const Frame& frame, std::string_view text, double away = 80);
 
 /// The colour bar of the next plot, vertical, filling `frame`, its label on the far side.
 std::string colour_bar(const Canvas& canvas, const Frame& frame, std::string_view label);
+
+/// The style of a plot of so many cells: a bitmap, in a PDF cell by cell unless it becomes too large.
+std::string cells_style(std::size_t cells);
 
 /// The unit in which an extent [m] reads best: mm, or um below 0.3 mm.
 struct LengthUnit {

@@ -12,7 +12,7 @@
 namespace interstice::figures {
 namespace {
 
-constexpr double left = 110, right = 165, top = 62, foot = 72, plot_height = 470;
+constexpr double right = 165, top = 62, foot = 72, plot_height = 470;
 
 void check(const MapFigure& figure) {
   if (figure.x.empty() || figure.y.empty()) throw InputError("a map without cells");
@@ -71,21 +71,32 @@ std::string plot_of(const MapFigure& figure, double x_step) {
   };
   const bool blanks = std::any_of(figure.values.begin(), figure.values.end(), has_blanks);
   if (!blanks && equally_spaced(figure.x) && equally_spaced(figure.y))
-    return "plot data using 1:2:3 with image\n";
+    return fmt::format("plot data using 1:2:3 with {}\n", cells_style(figure.x.size() * figure.y.size()));
   return fmt::format(
       "plot data using 1:2:4:($5+{:.6g}):6:($7+0.1*($7-$6)):3 with boxxyerror fillstyle solid 1.0 noborder "
       "lc palette\n",
       0.1 * x_step);
 }
 
+/// How wide the numbers beside the y axis print.
+double tics_width(double lo, double hi, double step) {
+  double widest = 0;
+  for (double n = std::ceil(lo / step); n * step <= hi; ++n)
+    widest = std::max(widest, text_width(fmt::format("{:g}", n * step), 14));
+  return widest;
+}
+
 }  // namespace
 
 void write_map(const std::filesystem::path& png, const MapFigure& figure, const Formats& formats) {
   check(figure);
+  const auto x = edges_of(figure.x), y = edges_of(figure.y);
+  const double y_step = tick_step(y.back() - y.front(), 10);
+  const double y_label_away = std::max(80.0, tics_width(y.front(), y.back(), y_step) + 32),
+               left = y_label_away + 30;
   Canvas canvas;
   canvas.height = top + plot_height + foot + foot_note_height(canvas, left, figure.note);
   const Frame frame{left, top, canvas.width - left - right, plot_height};
-  const auto x = edges_of(figure.x), y = edges_of(figure.y);
   std::string script = sequential_palette();
   script += fmt::format("set cbrange [{:g}:{:g}]; set cbtics {:g} font ',14'\n", figure.lo, figure.hi,
                         tick_step(figure.hi - figure.lo, 6));
@@ -93,10 +104,10 @@ void write_map(const std::filesystem::path& png, const MapFigure& figure, const 
   script += headline(canvas, left, figure.title) + foot_note(canvas, left, figure.note);
   script += place(canvas, frame);
   script += colour_bar(canvas, {canvas.width - right + 34, top, 22, plot_height}, figure.colour_label);
-  script += fmt::format(
-      "set xrange [{:.9g}:{:.9g}]; set xtics {:g}; set yrange [{:.9g}:{:.9g}]; set ytics {:g}\n", x.front(),
-      x.back(), tick_step(x.back() - x.front(), 9), y.front(), y.back(), tick_step(y.back() - y.front(), 10));
-  script += x_label(canvas, frame, figure.x_label) + y_label(canvas, frame, figure.y_label);
+  script +=
+      fmt::format("set xrange [{:.9g}:{:.9g}]; set xtics {:g}; set yrange [{:.9g}:{:.9g}]; set ytics {:g}\n",
+                  x.front(), x.back(), tick_step(x.back() - x.front(), 9), y.front(), y.back(), y_step);
+  script += x_label(canvas, frame, figure.x_label) + y_label(canvas, frame, figure.y_label, y_label_away);
   script += plot_of(figure, x[1] - x[0]);
   draw(png, {canvas.width, canvas.height, data_of(figure, x, y), script, formats});
 }

@@ -15,6 +15,7 @@ namespace interstice::figures {
 namespace {
 
 constexpr double left = 110, right = 165, top = 56, panel_head = 40, foot = 66;
+constexpr double kTitleSize = 15;  // [pt]
 constexpr double full_width = Canvas{}.width - left - right;
 constexpr const char* axis_names = "xyz";
 
@@ -111,12 +112,22 @@ Panel geometry(const SlicePanel& source) {
   return panel;
 }
 
+/// How far to the right panels and their titles reach; titles no farther than the widest panel could.
+double right_edge(const std::vector<Panel>& panels) {
+  double edge = 0;
+  for (const Panel& panel : panels) {
+    const double title = std::min(full_width, text_width(panel.source->title, kTitleSize));
+    edge = std::max({edge, panel.frame.left + panel.frame.width, left + title});
+  }
+  return edge;
+}
+
 /// All panels of a figure, stacked; returns them with the canvas that holds them.
 std::vector<Panel> stacked(const SliceFigure& figure, Canvas& canvas) {
   std::vector<Panel> panels;
   for (const auto& source : figure.panels) panels.push_back(geometry(source));
   const double tallest = panels.size() == 1 ? 640 : panels.size() <= 3 ? 340 : 260;
-  double y = top, widest = 0;
+  double y = top;
   for (std::size_t i = 0; i < panels.size(); ++i) {
     Panel& panel = panels[i];
     const double ratio = panel.stretch * panel.extent.height() / panel.extent.width();
@@ -127,9 +138,8 @@ std::vector<Panel> stacked(const SliceFigure& figure, Canvas& canvas) {
                                   panels[i + 1].n == panel.n;
     panel.frame = {left, y + panel_head, width, std::max(24.0, width * ratio)};
     y = panel.frame.top + panel.frame.height + (panel.shares_axis_with_next ? 8 : foot);
-    widest = std::max(widest, width);
   }
-  canvas.width = std::max(700.0, left + widest + right);
+  canvas.width = std::max(700.0, right_edge(panels) + right);
   canvas.height = y + (figure.note.empty() ? 6 : foot_note_height(canvas, left, figure.note));
   return panels;
 }
@@ -224,7 +234,8 @@ std::string plot_of(const SliceFigure& figure, const Panel& panel, std::size_t i
   const auto& values = panel.values();
   const bool blanks = std::any_of(values.begin(), values.end(), [](double v) { return !std::isfinite(v); });
   if (grid && !blanks) {
-    commands += "1:2:3 with image";  // a bitmap leaves no seams between the cells, but knows no blanks
+    commands +=
+        "1:2:3 with " + cells_style(values.size());  // no seams between the cells, but it knows no blanks
   } else {  // nor one row or column; boxes reach a little into each other, or seams would show
     const double half = grid ? 0.53 : 0.5;
     commands += fmt::format("1:2:({:.8g}):({:.8g}):3 with boxxyerror fillstyle solid 1.0 noborder lc palette",
@@ -251,15 +262,13 @@ std::string script_of(const SliceFigure& figure, const std::vector<Panel>& panel
   const double bar_top = panels.front().frame.top;
   const double bar_bottom = panels.back().frame.top + panels.back().frame.height;
   const double bar_height = std::clamp(bar_bottom - bar_top, 180.0, 460.0);
-  double edge = 0;
-  for (const Panel& panel : panels) edge = std::max(edge, panel.frame.left + panel.frame.width);
-  const Frame bar{edge + 34, std::max(bar_top, 0.5 * (bar_top + bar_bottom - bar_height)), 22,
+  const Frame bar{right_edge(panels) + 34, std::max(bar_top, 0.5 * (bar_top + bar_bottom - bar_height)), 22,
                   std::min(bar_height, canvas.height - bar_top - 40)};
   for (std::size_t i = 0; i < panels.size(); ++i) {
     const Panel& panel = panels[i];
     const auto& s = panel.source->samples;
     script += place(canvas, panel.frame);
-    script += write(canvas, {left, panel.frame.top - 18, panel.source->title, 15, "left"});
+    script += write(canvas, {left, panel.frame.top - 18, panel.source->title, kTitleSize, "left"});
     script += i == 0 ? colour_bar(canvas, bar, figure.colour_label) + level_marks(figure, canvas, bar)
                      : "unset colorbox\n";
     script += axes_of(panel, canvas);

@@ -46,7 +46,7 @@ std::vector<std::string> remarks_on(const std::array<RunFolder, 2>& runs, const 
     if (!reason.empty() && reason != "done" && reason != "completed" && reason != "finished") {
       remarks.push_back(fmt::format("{} did not come to its end: {}.", labels[r], reason));
     }
-    if (runs[r].series.rows() == 0)
+    if (runs[r].simulated && runs[r].series.rows() == 0)
       remarks.push_back(fmt::format("{} has no samples in series.csv.", labels[r]));
   }
   add_remarks(remarks, "phase", phases_of_both(a, b), runs, labels,

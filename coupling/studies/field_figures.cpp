@@ -20,14 +20,15 @@ struct Moment {
   bool both() const { return pair.a != nullptr && pair.b != nullptr; }
   std::string file(const std::string& what) const { return fmt::format("{}_{}_{}", field, pair.name, what); }
   std::string title(const std::string& what) const {
+    if (!a.simulated && !b.simulated) return what;
     return fmt::format("{}, {}{}", what, pair.name == "end" ? "at the " : "end of ", pair.name);
   }
   std::string note() const {
     std::string text = how_computed(pair.a != nullptr ? *pair.a : *pair.b);
     for (const auto& [moment, label] : {std::pair{pair.a, labels[0]}, std::pair{pair.b, labels[1]}}) {
-      if (moment == nullptr) continue;
-      text += fmt::format("{}{}: t = {:.6g} ms ({})", text.empty() ? "" : "; ", label, moment->time * 1e3,
-                          moment->phase);
+      if (moment == nullptr || std::isnan(moment->time)) continue;
+      text += fmt::format("{}{}: t = {:.6g} ms", text.empty() ? "" : "; ", label, moment->time * 1e3);
+      if (!moment->phase.empty()) text += fmt::format(" ({})", moment->phase);
     }
     return text;
   }
@@ -281,8 +282,9 @@ std::vector<NamedFigure> field_figures(const RunFolder& a, const RunFolder& b, c
   for (const auto& field : fields_of_both(a, b)) {
     for (const auto& pair : moment_pairs(a, b, field)) {
       const Moment m{a, b, labels, field, pair};
-      // The end is a moment of its own only where the runs ended in different phases.
-      if (pair.name == "end" && m.both() && pair.a->phase == pair.b->phase) continue;
+      // The end is a moment of its own only where the runs ended in different phases, or have none.
+      if (pair.name == "end" && m.both() && pair.a->phase == pair.b->phase && !pair.a->phase.empty())
+        continue;
       add_slices(all, m);
       add_lines(all, m);
       add_profiles(all, m);

@@ -16,10 +16,7 @@ namespace fs = std::filesystem;
 
 nlohmann::json read_json(const fs::path& path) {
   std::ifstream file(path);
-  if (!file) {
-    throw InputError(fmt::format("{}: there is no run.json in it; give a folder that `interstice run` wrote",
-                                 path.parent_path().string()));
-  }
+  if (!file) throw InputError(fmt::format("{}: cannot be opened", path.string()));
   try {
     return nlohmann::json::parse(file);
   } catch (const nlohmann::json::exception& error) {
@@ -92,6 +89,48 @@ FieldRecord read_field(const fs::path& fields, const std::string& name) {
   return record;
 }
 
+/// The folder of one frame that `voids` wrote, which holds summary.json: `path`, or the only such one in it.
+fs::path frame_folder(const fs::path& path) {
+  if (fs::exists(path / "summary.json")) return path;
+  std::vector<fs::path> frames;
+  for (const auto& entry : fs::directory_iterator(path)) {
+    if (fs::exists(entry.path() / "summary.json")) frames.push_back(entry.path());
+  }
+  if (frames.size() == 1) return frames.front();
+  throw InputError(
+      fmt::format("{}: there is no run.json in it, {}; give a folder that `interstice run` wrote, or that of "
+                  "one frame that `interstice voids` wrote",
+                  path.string(), frames.empty() ? "nor summary.json" : "and more frames than one"));
+}
+
+RunFolder read_frame_folder(const fs::path& path) {
+  RunFolder run;
+  run.path = frame_folder(path);
+  run.simulated = false;
+  const fs::path file = run.path / "summary.json";
+  const auto summary = read_json(file);
+  std::vector<Table::Column> columns;
+  const std::pair<const char*, const char*> numbers[] = {
+      {"time_s", "time_s"},
+      {"solid_fraction_gap", "layer_mean"},
+      {"solid_fraction_sd", "layer_sd"},
+      {"solid_height_m", "solid_height_m"},
+      {"surface_height_m", "surface_height_m"},
+      {"solid_fraction_below_surface", "solid_fraction_below_surface"},
+      {"solid_fraction_mean", "solid_fraction_mean"},
+      {"void_fraction_mean", "void_fraction_mean"},
+      {"void_fraction_min", "void_fraction_min"}};
+  for (const auto& [column, key] : numbers) {
+    const auto at = summary.find(key);
+    if (at != summary.end() && at->is_number()) columns.push_back({column, {at->get<double>()}, {}});
+  }
+  FieldRecord field{"fields", Table(file.string(), std::move(columns), 1), {}};
+  const double time = field.numbers.has("time_s") ? field.numbers.numbers("time_s").front() : std::nan("");
+  field.moments.push_back({0, time, "", run.path, run.path / "fields.vdb"});
+  run.fields.push_back(std::move(field));
+  return run;
+}
+
 }  // namespace
 
 const PhaseSpan* RunFolder::phase(std::string_view name) const {
@@ -119,9 +158,10 @@ std::vector<std::string> RunFolder::watched_walls() const {
 RunFolder read_run_folder(const fs::path& path) {
   std::error_code ignored;
   if (!fs::is_directory(path, ignored)) {
-    throw InputError(
-        fmt::format("{}: no such folder; give a folder that `interstice run` wrote", path.string()));
+    throw InputError(fmt::format(
+        "{}: no such folder; give one that `interstice run` or `interstice voids` wrote", path.string()));
   }
+  if (!fs::exists(path / "run.json", ignored)) return read_frame_folder(path);
   RunFolder run;
   run.path = path;
   read_info(run);

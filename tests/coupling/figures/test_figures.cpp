@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <limits>
+#include <string>
 
 #include "base/error.h"
 #include "coupling/figures/figures.h"
@@ -126,6 +127,23 @@ TEST_F(Figures, SlicesOfEveryShapeAreDrawn) {
   EXPECT_EQ(data_lines(folder / "shapes.dat"), 200U + 10U + 10U + 1U + 200U);
 }
 
+TEST_F(Figures, TheColourBarStandsBesideTheTitlesOfNarrowPanels) {
+  auto figure = slice_figure(slice(10, 40));
+  figure.panels[0].title = "along y, averaged over 120 µm";
+  figure.panels.push_back(figure.panels[0]);
+  figure.panels.push_back(figure.panels[0]);
+  figures::write_slices(folder / "s.png", figure);
+  const std::string script = content(folder / "s.gp");
+  const auto number_after = [&](const std::string& text, const std::string& unit) {
+    const std::size_t at = script.find(text), number = script.find(unit, at) + unit.size();
+    return at == std::string::npos ? NAN : std::stod(script.substr(number));
+  };
+  const double width = (*png_size(folder / "s.png"))[0];
+  const double bar = width * number_after("set colorbox", "origin screen ");
+  const double title = width * number_after("'along y", "at screen ");
+  EXPECT_GT(bar, title + 29 * 13.7);  // 29 letters, 13.7 px each as measured in such a figure
+}
+
 TEST_F(Figures, CurvesHaveAllTheirPointsBesideThem) {
   auto with_gap = curve_figure(3000);
   with_gap.curves[0].y[7] = std::numeric_limits<double>::quiet_NaN();
@@ -222,7 +240,7 @@ TEST_F(Figures, WhatGnuplotSaysIsPassedOnAndNoPngIsLeft) {
     figures::draw(folder / "bad.png", {400, 300, "1 2\n", "set no_such_thing 3\nplot data\n"});
     FAIL() << "no error";
   } catch (const RunError& error) {
-    EXPECT_NE(std::string(error.what()).find("line 11"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("line 12"), std::string::npos) << error.what();
     EXPECT_NE(std::string(error.what()).find("bad.png"), std::string::npos) << error.what();
   }
   EXPECT_FALSE(std::filesystem::exists(folder / "bad.png"));

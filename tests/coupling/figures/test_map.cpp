@@ -1,6 +1,8 @@
 // Maps over time, vector graphics and printed units.
 #include <gtest/gtest.h>
 
+#include <zlib.h>
+
 #include <cmath>
 #include <sstream>
 
@@ -54,6 +56,20 @@ TEST_F(Maps, EvenAndUnevenMomentsSingleRowsAndSingleColumnsAreDrawn) {
   EXPECT_NE(content(folder / "map1.dat").find("0 1 0.25 -0.01 0.01 0.5 3\n"), std::string::npos);
 }
 
+TEST_F(Maps, LargeMomentsLeaveRoomForTheirAxisLabel) {
+  figures::write_map(folder / "m.png", map(50, {100000, 400000, 700000}));
+  const std::string script = content(folder / "m.gp");
+  const auto pixels_after = [&](const std::string& text, const std::string& key) {
+    const std::size_t at = script.find(text), number = script.find(key, at) + key.size();
+    return at == std::string::npos ? NAN : 1600 * std::stod(script.substr(number));
+  };
+  const double axis = pixels_after("set lmargin", "at screen ");
+  const double label = pixels_after("'time [ms]'", "at screen ");
+  // Six digits of 12.8 px, as measured in such a figure, 10 px of tics, half the label's height of 20 px.
+  EXPECT_LT(label + 10, axis - 10 - 6 * 12.8);
+  EXPECT_GT(label, 10);
+}
+
 TEST_F(Maps, FiguresThatMakeNoSenseAreRefused) {
   auto backwards = map(5, {0, 2, 1}), short_row = map(5, {0, 1}), no_range = map(5, {0, 1}),
        lacking = map(5, {0, 1});
@@ -74,6 +90,38 @@ TEST_F(Maps, VectorGraphicsStandBesideThePngWhereAskedFor) {
   figures::write_map(folder / "only.png", map(20, {0, 1, 2}));
   EXPECT_FALSE(std::filesystem::exists(folder / "only.pdf"));
   EXPECT_FALSE(std::filesystem::exists(folder / "only.svg"));
+}
+
+/// What the first stream of a PDF says, unpacked: the page's drawing commands.
+std::string page_of(const std::string& pdf) {
+  const std::size_t start = pdf.find('\n', pdf.find("stream")) + 1;
+  std::string page(1 << 22, '\0');
+  z_stream z{};
+  z.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(pdf.data() + start));
+  z.avail_in = static_cast<uInt>(pdf.size() - start);
+  z.next_out = reinterpret_cast<Bytef*>(page.data());
+  z.avail_out = static_cast<uInt>(page.size());
+  inflateInit(&z);
+  inflate(&z, Z_FINISH);
+  page.resize(z.total_out);
+  inflateEnd(&z);
+  return page;
+}
+
+// 1100 units are 16.5 cm; a point of the layout is 1.16 units (docs/FIGURES.md: letters scale with the page).
+TEST_F(Maps, LettersOfAPdfAreAsLargeAsThePngsAndItsCellsAreNoBitmap) {
+  auto even = map(20, {0, 1, 2});
+  even.values[0][0] = 0.5;  // without blanks, which are drawn otherwise
+  figures::write_map(folder / "e.png", even, {true, false});
+  const std::string pdf = content(folder / "e.pdf");
+  EXPECT_EQ(pdf.find("/Image"), std::string::npos);
+  std::istringstream page(page_of(pdf));
+  double largest = 0;
+  for (std::string line; std::getline(page, line);) {
+    if (line.ends_with(" Tm")) largest = std::max(largest, std::stod(line));
+  }
+  const double headline = 18 * 1.16 * 16.5 / 1100 / 2.54 * 72;  // [pt]
+  EXPECT_NEAR(largest, headline, 0.01 * headline);
 }
 
 TEST_F(Maps, HistogramsHaveALogarithmicAxisThatEmptyBinsLeave) {

@@ -225,7 +225,7 @@ TEST_F(CompareRuns, AMissingFolderOrFileIsNamed) {
   EXPECT_NE(error().find("b: no such folder"), std::string::npos);  // both faults at once
   compare({}, {});
   fs::remove(folder / "a" / "run.json");
-  EXPECT_NE(error().find("there is no run.json"), std::string::npos);
+  EXPECT_NE(error().find("there is no run.json in it, nor summary.json"), std::string::npos);
   compare({}, {});
   fs::remove(folder / "b" / "series.csv");
   EXPECT_NE(error().find("b/series.csv: cannot be opened"), std::string::npos);
