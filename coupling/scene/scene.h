@@ -154,12 +154,12 @@ struct Phase {
 };
 
 struct TimeStep {
-  double rayleigh = 0.2;        // fraction of the Rayleigh time
-  double collision = 0.04;      // fraction of the collision time
-  std::optional<double> fixed;  // [s], instead of the two
-  bool allow_unstable = false;  // lets a fixed step above 0.2 of the collision time through
-  bool sleeping = false;        // grains at rest are left out of steps ...
-  double sleep_tolerance = 0;   // ... until forces on them are out of balance by this share of their weight
+  double rayleigh = 0.2;          // fraction of the Rayleigh time
+  double collision = 0.04;        // fraction of the collision time
+  std::optional<double> fixed;    // [s], instead of the two
+  bool allow_unstable = false;    // lets a fixed step above 0.2 of the collision time through
+  bool sleeping = false;          // grains at rest are left out of steps ...
+  double sleep_tolerance = 0.05;  // ... until forces on them are out of balance by this share of their weight
 
   bool operator==(const TimeStep&) const = default;
 };

@@ -139,6 +139,11 @@ TEST(Overrides, ReachEverythingByNameOrIndex) {
             5u);
 }
 
+TEST(Sleeping, NeedsGravity) {
+  const std::string message = message_of(kExampleScene, {"time.sleeping=true", "domain.gravity.2=0 m/s^2"});
+  EXPECT_NE(message.find("time.sleeping: is true, and there is no gravity"), std::string::npos) << message;
+}
+
 TEST(Overrides, AreValidatedAndNamedInMessages) {
   const std::pair<std::string, std::string> rows[] = {
       {"particles.feed.count=0", "--set particles.feed.count=0: particles.feed.count: 0 cannot be"},
@@ -147,6 +152,8 @@ TEST(Overrides, AreValidatedAndNamedInMessages) {
       {"particles.feed.conut=5", "unknown key"},
       {"title.x=5", "title: is a text and has nothing named \"x\" inside"},
       {"time.step=8", "8 has no unit; a time is due"},
+      {"time.sleep_tolerance=0.5", "--set time.sleep_tolerance=0.5: time.sleep_tolerance: 0.5 cannot be"},
+      {"time.sleep_tolerance=0", "time.sleep_tolerance: 0 cannot be"},
       {"title", "is not an assignment"},
       {"=5", "is not an assignment"},
       {"a..b=5", "is not an assignment"},
