@@ -43,11 +43,6 @@ struct OldEnds {
   }
 };
 
-/// Index of number n of a pair's spring.
-std::size_t spring_index(std::size_t pair, std::size_t n) {
-  return (pair / kLanes * kSpringReals + n) * kLanes + pair % kLanes;
-}
-
 TangentialSpring<double> spring_at(const Reals& springs, std::size_t k) {
   if (springs.empty()) return {};
   return {{springs[spring_index(k, 0)], springs[spring_index(k, 1)], springs[spring_index(k, 2)]},
@@ -127,7 +122,7 @@ void PairContacts::replace(const std::vector<PairRef>& found, const PairClasses&
 
 Vec3d PairContacts::force(std::size_t k) const {
   if (forces_.empty()) return {0, 0, 0};
-  const auto number = [&](std::size_t n) { return forces_[(k / kLanes * 3 + n) * kLanes + k % kLanes]; };
+  const auto number = [&](std::size_t n) { return forces_[axis_index(k, n)]; };
   return {number(0), number(1), number(2)};
 }
 

@@ -59,6 +59,13 @@ static_assert(kLanes == 16);
 inline constexpr std::size_t kEndReals = 8;
 /// Numbers of one spring: force [N] and stiffness [N/m].
 inline constexpr std::size_t kSpringReals = 4;
+/// Where a pair's numbers of its spring, and its force along an axis, lie: by group, number and lane.
+constexpr std::size_t spring_index(std::size_t pair, std::size_t n) {
+  return (pair / kLanes * kSpringReals + n) * kLanes + pair % kLanes;
+}
+constexpr std::size_t axis_index(std::size_t pair, std::size_t axis) {
+  return (pair / kLanes * 3 + axis) * kLanes + pair % kLanes;
+}
 
 /// What the kernels see of the pairs. Springs: by group, number and lane; ends: by end and number; both in
 /// the kernels' number type; null where not kept.

@@ -51,14 +51,13 @@ class RowSums {
   EndSums<simd::Pack<Real, kLanes>> lanes() const {
     alignas(64) Real rows[kLanes * kEndReals];
     for (int j = 0; j < kPacks; ++j) sums_[j].store(rows + j * kReals);
-    simd::QuadLoader<Real, kLanes> forces, torques;
+    simd::OctLoader<Real, kLanes> loader;
     simd::unrolled<kLanes>([&](auto lane) {
-      const auto* at = reinterpret_cast<const std::byte*>(rows + kEndReals * decltype(lane)::value);
-      forces.template load<decltype(lane)::value>(at);
-      torques.template load<decltype(lane)::value>(at + 4 * sizeof(Real));
+      constexpr int i = decltype(lane)::value;
+      loader.template load<i>(rows + kEndReals * i);
     });
-    const auto f = forces.quad(), t = torques.quad();
-    return {{f.a, f.b, f.c}, {t.a, t.b, t.c}};
+    const auto c = loader.columns();
+    return {{c[0], c[1], c[2]}, {c[4], c[5], c[6]}};
   }
 
  private:

@@ -39,15 +39,11 @@ struct GroupStep {
   Each radius;
 };
 
-/// Puts three numbers into each row, in its number type; what follows stays.
-template <class Real, class Row>
-void put_three(const Vec3<Each>& v, Row* rows, Real Row::*first) {
+/// Three numbers of each grain and a fourth, in the number type of the rows.
+template <class Real>
+simd::Quads<Real, kLanes> quads(const Vec3<Each>& v, const Each& fourth) {
   const auto w = simd::converted<Real>(v);
-  const simd::QuadStorer<Real, kLanes> numbers({w.x, w.y, w.z, simd::Pack<Real, kLanes>(0)});
-  simd::unrolled<kLanes>([&](auto lane) {
-    constexpr int i = decltype(lane)::value;
-    numbers.template store_three<i>(&(rows[i].*first));
-  });
+  return {w.x, w.y, w.z, simd::converted<Real>(fourth)};
 }
 
 /// Moves a group on, and predicts its velocities.
@@ -57,19 +53,25 @@ GroupStep begin_motion(PairRow<Real>* rows, GroupMotion& m, const GroupState& no
   const Vec3<Each> w = half_step(now.spin, now.angular, 0.5 * dt);
   store(u, m.vx, m.vy, m.vz);
   store(w, m.wx, m.wy, m.wz);
-  simd::QuadLoader<double, kLanes> sites;
+  simd::QuadLoader<kLanes> sites;
   simd::unrolled<kLanes>([&](auto lane) {
     constexpr int i = decltype(lane)::value;
-    sites.template load<i>(reinterpret_cast<const std::byte*>(&rows[i].x));
+    sites.template load<i>(&rows[i].x);
   });
-  const auto site = sites.quad();
+  const auto site = sites.columns();
   GroupStep moved;
   moved.step = Each(dt) * u;
-  moved.position = Vec3<Each>{site.a, site.b, site.c} + moved.step;
-  moved.radius = site.d;
-  put_three(moved.position, rows, &PairRow<Real>::x);
-  put_three(half_step(u, now.acceleration, 0.5 * dt), rows, &PairRow<Real>::vx);
-  put_three(half_step(w, now.angular, 0.5 * dt), rows, &PairRow<Real>::wx);
+  moved.position = Vec3<Each>{site[0], site[1], site[2]} + moved.step;
+  moved.radius = site[3];
+  const auto places = quads<double>(moved.position, moved.radius);
+  const simd::OctStorer<Real, kLanes> motion(
+      quads<Real>(half_step(u, now.acceleration, 0.5 * dt), Each::load(m.inverse_mass)),
+      quads<Real>(half_step(w, now.angular, 0.5 * dt), moved.radius));
+  simd::unrolled<kLanes>([&](auto lane) {
+    constexpr int i = decltype(lane)::value;
+    places.template store<i>(&rows[i].x);
+    motion.template store<i>(&rows[i].vx);
+  });
   return moved;
 }
 

@@ -6,8 +6,8 @@ namespace {
 template <class Real>
 PairRow<Real> pair_row(const GrainRow& g) {
   const auto r = [](double value) { return static_cast<Real>(value); };
-  return {g.x,     g.y,       g.z,     g.radius, r(g.vx), r(g.vy),
-          r(g.vz), r(g.mass), r(g.wx), r(g.wy),  r(g.wz), g.material};
+  return {g.x,     g.y,           g.z,     g.radius, r(g.vx), r(g.vy),
+          r(g.vz), r(1 / g.mass), r(g.wx), r(g.wy),  r(g.wz), r(g.radius)};
 }
 
 template <class Vector>
@@ -21,7 +21,7 @@ void take_from(Vector& v, std::span<const std::uint32_t> order, std::size_t size
 /// Puts a row after `count` others, in whole groups.
 template <class Rows>
 void put_row(Rows& rows, std::size_t count, const GrainRow& g) {
-  using Real = decltype(rows[0].mass);
+  using Real = decltype(rows[0].vx);
   if (count % kLanes == 0) rows.resize(count + kLanes);
   rows[count] = pair_row<Real>(g);
 }
@@ -33,6 +33,7 @@ void GrainStore::clear() {
   doubles_.clear();
   motions_.clear();
   labels_.clear();
+  materials_.clear();
   accelerations_.clear();
   rests_.clear();
 }
@@ -48,6 +49,7 @@ void GrainStore::add(const GrainRow& g, const GrainAcceleration& acceleration) {
   motions_.back().set(slot % kLanes,
                       {g.velocity(), 1 / g.mass, g.spin(), 1 / (0.4 * g.mass * g.radius * g.radius)});
   labels_.push_back({g.position(), g.id, g.mass, g.layer});
+  materials_.push_back(g.material);
   accelerations_.push_back(acceleration);
   if (keeps_rests_) rests_.emplace_back();
 }
@@ -61,6 +63,7 @@ void GrainStore::take(std::span<const std::uint32_t> order) {
     motions[s / kLanes].set(s % kLanes, motions_[order[s] / kLanes].at(order[s] % kLanes));
   motions_ = std::move(motions);
   take_from(labels_, order, order.size());
+  take_from(materials_, order, order.size());
   take_from(accelerations_, order, order.size());
   take_from(rests_, order, order.size());
 }
@@ -87,15 +90,14 @@ GrainRow GrainStore::row(std::size_t s) const {
     const auto d = [](auto value) { return static_cast<double>(value); };
     Vec3d v = m.velocity, w = m.spin;
     if (stepping_) v = {d(r.vx), d(r.vy), d(r.vz)}, w = {d(r.wx), d(r.wy), d(r.wz)};
-    return GrainRow{
-        r.x,        r.y, r.z, r.radius, v.x,      v.y,         v.z,
-        label.mass, w.x, w.y, w.z,      label.id, label.layer, static_cast<std::uint16_t>(r.material)};
+    return GrainRow{r.x, r.y, r.z, r.exact_radius, v.x,         v.y,          v.z, label.mass,
+                    w.x, w.y, w.z, label.id,       label.layer, materials_[s]};
   });
 }
 
 GrainSite GrainStore::site(std::size_t s) const {
   return with_rows([&](const auto& rows) {
-    return GrainSite{rows[s].x, rows[s].y, rows[s].z, rows[s].radius, labels_[s].id};
+    return GrainSite{rows[s].x, rows[s].y, rows[s].z, rows[s].exact_radius, labels_[s].id};
   });
 }
 
@@ -107,8 +109,8 @@ std::vector<GrainSite> GrainStore::sites() const {
 
 std::size_t GrainStore::bytes() const {
   const auto held = [](const auto& v) { return v.capacity() * sizeof(v[0]); };
-  return held(singles_) + held(doubles_) + held(motions_) + held(labels_) + held(accelerations_) +
-         held(rests_);
+  return held(singles_) + held(doubles_) + held(motions_) + held(labels_) + held(materials_) +
+         held(accelerations_) + held(rests_);
 }
 
 }  // namespace interstice::dem

@@ -1,6 +1,6 @@
 // The grains as the CPU back end keeps them, sorted in space. What the pair loop reads of a grain lies in one
-// row (a cache line in mixed precision), four numbers side by side, loaded at once (simd/transpose.h); what
-// only the grain's own motion needs lies beside it, and what a step does not need at all lies apart.
+// row (a cache line in mixed precision), 32 bytes loaded at once (simd/transpose.h); what only the grain's
+// own motion needs lies beside it, and what a step does not need at all lies apart.
 #pragma once
 
 #include <algorithm>
@@ -17,10 +17,9 @@ namespace interstice::dem {
 /// What pairs read, in the number type of the forces; velocities as predicted for the step's end.
 template <class Real>
 struct alignas(16 * sizeof(Real) > 64 ? 32 : 64) PairRow {
-  double x, y, z, radius;
-  Real vx, vy, vz, mass;
-  Real wx, wy, wz;
-  std::uint32_t material;
+  double x, y, z, exact_radius;  // [m]
+  Real vx, vy, vz, inverse_mass;
+  Real wx, wy, wz, radius;
 
   Vec3d position() const { return {x, y, z}; }
 };
@@ -97,6 +96,7 @@ class GrainStore {
   LargeVector<GroupMotion>& motions() { return motions_; }
   std::vector<GrainLabel>& labels() { return labels_; }
   const std::vector<GrainLabel>& labels() const { return labels_; }
+  const std::vector<std::uint16_t>& materials() const { return materials_; }
   std::vector<GrainAcceleration>& accelerations() { return accelerations_; }
   const std::vector<GrainAcceleration>& accelerations() const { return accelerations_; }
 
@@ -121,6 +121,7 @@ class GrainStore {
   LargeVector<PairRow<double>> doubles_;
   LargeVector<GroupMotion> motions_;
   std::vector<GrainLabel> labels_;
+  std::vector<std::uint16_t> materials_;
   std::vector<GrainAcceleration> accelerations_;  // empty while steps follow each other
   std::vector<GrainRest> rests_;
 };

@@ -102,10 +102,19 @@ void Simulation::begin_step() {
 }
 
 StepView Simulation::step_view(const PairView& pairs) const {
-  return {grains_.row_data(),      search_space().period(), dt_,
-          model_.slider_velocity,  constants_.data(),       constants_single_.data(),
-          model_.materials.size(), only_material_,          pairs,
-          walls_.data(),           wall_velocities_.data(), model_.walls.data()};
+  return {grains_.row_data(),
+          grains_.materials().data(),
+          search_space().period(),
+          dt_,
+          model_.slider_velocity,
+          constants_.data(),
+          constants_single_.data(),
+          model_.materials.size(),
+          only_material_,
+          pairs,
+          walls_.data(),
+          wall_velocities_.data(),
+          model_.walls.data()};
 }
 
 void Simulation::evaluate_and_move(bool begin_next) {

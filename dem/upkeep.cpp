@@ -166,11 +166,10 @@ void Simulation::rebuild() {
 }
 
 void Simulation::note_materials() {
-  grains_.with_rows([&](const auto& rows) {
-    only_material_ = rows.empty() ? 0 : static_cast<std::int64_t>(rows[0].material);
-    for (std::size_t s = 0; s < grains_.size(); ++s)
-      if (rows[s].material != only_material_) only_material_ = -1;
-  });
+  const std::vector<std::uint16_t>& materials = grains_.materials();
+  only_material_ = materials.empty() ? 0 : materials[0];
+  if (std::ranges::any_of(materials, [&](std::uint16_t m) { return m != only_material_; }))
+    only_material_ = -1;
 }
 
 void Simulation::find_candidates(const std::vector<GrainSite>& sites, double longest) {

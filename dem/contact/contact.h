@@ -118,15 +118,14 @@ INTERSTICE_HD inline ContactForce<T> evaluate_contact(const Laws& laws, const Co
   const NormalResponse<T> normal = normal_response(laws, k.overlap, k.effective_radius, c);
   const T normal_speed = dot(k.velocity, k.normal);
   const T gamma = dashpot(c.damping, normal.stiffness, k.effective_mass);
-  const T damped = normal.force - gamma * normal_speed;
+  const T damped = multiply_add(-gamma, normal_speed, normal.force);
   const T repulsion = laws.clip ? max_of(damped, min_of(normal.force, T(0))) : damped;
   const T attraction = attraction_in_contact(laws, k.overlap, k.effective_radius, k.area, c);
   const bool jkr = laws.cohesion == CohesionLaw::jkr;
 
   ContactForce<T> out{};
-  out.force = (repulsion - attraction) * k.normal;
   out.heat.damping = (normal.force - repulsion) * normal_speed * step.dt;
-  const Vec3<T> slip = k.velocity - normal_speed * k.normal;
+  const Vec3<T> slip = multiply_add(-normal_speed, k.normal, k.velocity);
   const T shear_stiffness = c.shear_ratio * normal.stiffness;
   const T friction_limit = c.friction * abs_of(jkr ? normal.load : repulsion);
   if (laws.tangential == TangentialLaw::slider) {
@@ -140,7 +139,7 @@ INTERSTICE_HD inline ContactForce<T> evaluate_contact(const Laws& laws, const Co
     out.heat.sliding = t.slip_heat;
     out.heat.damping = out.heat.damping + t.damping_heat;
   }
-  out.force += out.tangential;
+  out.force = multiply_add(repulsion - attraction, k.normal, out.tangential);
 
   const T rolling_limit = c.rolling_friction * abs_of(normal.load) * k.effective_radius;
   if (laws.rolling == RollingLaw::cdt) {

@@ -35,7 +35,15 @@ INTERSTICE_HD inline float inverse_of(float a) { return 1 / a; }
 INTERSTICE_HD inline double inverse_root_of(double a) { return 1 / std::sqrt(a); }
 INTERSTICE_HD inline float inverse_root_of(float a) { return 1 / std::sqrt(a); }
 
-/// The least length squared that counts, and by how much lengths are scaled before they are squared: in
+/// a b + c. Of packs rounded once where the machine can, in one way whatever the compiler would make of it.
+INTERSTICE_HD inline double multiply_add(double a, double b, double c) { return a * b + c; }
+INTERSTICE_HD inline float multiply_add(float a, float b, float c) { return a * b + c; }
+template <class T>
+INTERSTICE_HD inline Vec3<T> multiply_add(const T& a, const Vec3<T>& b, const Vec3<T>& c) {
+  return {multiply_add(a, b.x, c.x), multiply_add(a, b.y, c.y), multiply_add(a, b.z, c.z)};
+}
+
+/// Added to the squares of lengths, so that none is zero, and by how much lengths are scaled before: in
 /// single precision the square of a force on a grain of 100 nm, or of a torque on one of 1 um, underflows.
 template <class Real>
 inline constexpr Real kLeastSquare = sizeof(Real) == 4 ? Real(1e-37) : Real(1e-300);
@@ -46,8 +54,10 @@ inline constexpr Real kLengthScale = sizeof(Real) == 4 ? Real(4294967296.0) : Re
 template <class T, class Real = T>
 INTERSTICE_HD inline T inverse_length(const Vec3<T>& v) {
   const T scale(kLengthScale<Real>);
-  const Vec3<T> scaled = scale * v;
-  return scale * inverse_root_of(max_of(dot(scaled, scaled), T(kLeastSquare<Real>)));
+  const Vec3<T> s = scale * v;
+  const T square =
+      multiply_add(s.z, s.z, multiply_add(s.y, s.y, multiply_add(s.x, s.x, T(kLeastSquare<Real>))));
+  return scale * inverse_root_of(square);
 }
 INTERSTICE_HD inline double inverse_length_of(const Vec3<double>& v) { return inverse_length(v); }
 INTERSTICE_HD inline float inverse_length_of(const Vec3<float>& v) { return inverse_length(v); }

@@ -8,9 +8,9 @@ namespace interstice::dem {
 template <class Real>
 const PairConstants<Real>& constants_of(const StepView& v, std::size_t a, std::size_t b) {
   if constexpr (std::is_same_v<Real, float>) {
-    return v.constants_single[a * v.materials + b];
+    return v.constants_single[a * v.material_count + b];
   } else {
-    return v.constants[a * v.materials + b];
+    return v.constants[a * v.material_count + b];
   }
 }
 

@@ -13,12 +13,13 @@ namespace interstice::dem {
 /// What the force loops see: trivially copyable, owns nothing.
 struct StepView {
   const void* rows;                              // PairRow of the kernels' number type
+  const std::uint16_t* materials;                // of the grains
   Vec3d period;                                  // of the domain [m]; 0 along axes that are not periodic
   double dt;                                     // [s]
   double slider_velocity;                        // [m/s]
   const PairConstants<double>* constants;        // materials x materials
   const PairConstants<float>* constants_single;  // the same
-  std::size_t materials;
+  std::size_t material_count;
   std::int64_t only_material;  // of all grains; -1 where they differ
 
   PairView pairs;

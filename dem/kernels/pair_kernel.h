@@ -21,22 +21,26 @@ void store_spring(const TangentialSpring<P>& spring, const typename P::M& kept, 
   select(kept, spring.stiffness, P(0)).store(at + 3 * kLanes);
 }
 
+template <class P>
+void store_columns(const Vec3<P>& v, RealOf<P>* at) {
+  v.x.store(at), v.y.store(at + kLanes), v.z.store(at + 2 * kLanes);
+}
+
 /// A pair's force and torques, to each of its ends.
 template <class P>
 void store_ends(const PairEnds* ends, const Vec3<P>& force, const Vec3<P>& torque_a, const Vec3<P>& torque_b,
-                RealOf<P>* end_forces) {
-  using Storer = simd::QuadStorer<RealOf<P>, kLanes>;
+                void* end_forces) {
+  using Real = RealOf<P>;
+  using Quads = simd::Quads<Real, kLanes>;
+  const simd::RowOffsets<2 * kLanes> offsets(ends, kEndReals * sizeof(Real) / sizeof(double));
   const P zero(0);
-  const Storer force_a({force.x, force.y, force.z, zero}), force_b({-force.x, -force.y, -force.z, zero}),
-      turn_a({torque_a.x, torque_a.y, torque_a.z, zero}), turn_b({torque_b.x, torque_b.y, torque_b.z, zero});
+  const Quads across(force.x, force.y, force.z, zero);
+  const simd::OctStorer<Real, kLanes> to_a(across, Quads(torque_a.x, torque_a.y, torque_a.z, zero)),
+      to_b(-across, Quads(torque_b.x, torque_b.y, torque_b.z, zero));
   simd::unrolled<kLanes>([&](auto lane) {
     constexpr int i = decltype(lane)::value;
-    RealOf<P>* const a = end_forces + kEndReals * ends[i].a;
-    RealOf<P>* const b = end_forces + kEndReals * ends[i].b;
-    force_a.template store<i>(a);
-    turn_a.template store<i>(a + 4);
-    force_b.template store<i>(b);
-    turn_b.template store<i>(b + 4);
+    to_a.template store<i>(offsets.template at<Real>(2 * i, end_forces));
+    to_b.template store<i>(offsets.template at<Real>(2 * i + 1, end_forces));
   });
 }
 
@@ -48,59 +52,67 @@ ContactKinematics<P> pair_kinematics(const L& laws, const PairGeometry<P>& g, co
   const bool beyond = laws.cohesion == CohesionLaw::jkr;
   kin.overlap = beyond ? g.overlap : max_of(g.overlap, P(0));
   kin.effective_radius = effective_radius;
-  kin.effective_mass = a.mass * (b.mass * inverse_of(a.mass + b.mass));  // their product may underflow
+  kin.effective_mass = inverse_of(a.inverse_mass + b.inverse_mass);
   kin.normal = g.normal;
   if (laws.cohesion == CohesionLaw::sjkr) {
-    kin.area = sphere_sphere_area(g.radius_a, g.radius_b, g.distance, kin.overlap);
+    kin.area = sphere_sphere_area(a.radius, b.radius, g.distance, kin.overlap);
   }
-  arm_a = g.radius_a - P(0.5) * kin.overlap;
-  arm_b = g.radius_b - P(0.5) * kin.overlap;
+  arm_a = a.radius - P(0.5) * kin.overlap;
+  arm_b = b.radius - P(0.5) * kin.overlap;
   kin.velocity = a.velocity - b.velocity;
   kin.relative_spin = a.spin - b.spin;
   if (laws.tangential != TangentialLaw::none) {
     // arm_a w_a + arm_b w_b, exactly 0 for equal grains that roll on each other
-    const Vec3<P> surface =
-        P(0.5) * ((arm_a + arm_b) * (a.spin + b.spin) + (arm_a - arm_b) * kin.relative_spin);
+    const Vec3<P> surface = multiply_add(P(0.5) * (arm_a + arm_b), a.spin + b.spin,
+                                         (P(0.5) * (arm_a - arm_b)) * kin.relative_spin);
     kin.velocity = kin.velocity - cross(surface, g.normal);
   }
   return kin;
 }
 
-template <class L, class Real>
-void evaluate_group(const L& laws, const StepView& v, const PairConstants<simd::Pack<Real, kLanes>>* only,
+/// What pairs have in common.
+template <class P>
+struct CommonInputs {
+  StepConstants<P> step;
+  Periods periods;
+  PairConstants<P> constants;  // where there is only one material
+};
+
+/// No force in a group of pairs.
+template <class P>
+void leave_apart(const StepView& v, std::size_t group) {
+  const std::size_t first = group * kLanes;
+  const Vec3<P> none{P(0), P(0), P(0)};
+  store_ends(v.pairs.ends + first, none, none, none, v.pairs.end_forces);
+  if (v.pairs.forces) store_columns(none, static_cast<RealOf<P>*>(v.pairs.forces) + axis_index(first, 0));
+  if (v.pairs.heat) std::fill_n(v.pairs.heat + first, kLanes, PairHeat{});
+}
+
+template <bool one_material, class L, class P>
+void evaluate_group(const L& laws, const StepView& v, const CommonInputs<P>& common, const PairRows<P>& rows,
                     std::size_t group) {
-  using P = simd::Pack<Real, kLanes>;
+  using Real = RealOf<P>;
   using M = typename P::M;
   const std::size_t first = group * kLanes;
   GroupBits& bits = v.pairs.bits[group];
   const PairRef* pairs = v.pairs.pairs + first;
-  const GrainRows<P> a = load_rows<P>(v, [&](int lane) { return pairs[lane].a; }),
-                     b = load_rows<P>(v, [&](int lane) { return pairs[lane].b; });
-  const PairGeometry<P> g = pair_geometry<P>(a.position, a.radius, b.position, b.radius, v.period);
-  if (stay_apart(laws, bits, g.overlap)) {
-    const Vec3<P> none{P(0), P(0), P(0)};
-    store_ends(v.pairs.ends + first, none, none, none, static_cast<Real*>(v.pairs.end_forces));
-    if (v.pairs.forces) std::fill_n(static_cast<Real*>(v.pairs.forces) + 3 * first, 3 * kLanes, Real(0));
-    if (v.pairs.heat) std::fill_n(v.pairs.heat + first, kLanes, PairHeat{});
-    return;  // still apart
-  }
-  const PairConstants<P> c = only ? *only : load_constants<Real>([&](int lane) -> const PairConstants<Real>& {
-    const auto* rows = static_cast<const PairRow<Real>*>(v.rows);
-    return constants_of<Real>(v, rows[pairs[lane].a].material, rows[pairs[lane].b].material);
-  });
-  const P effective_radius = g.radius_a * g.radius_b * g.inverse_reach;
+  const PairGeometry<P> g = pair_geometry(rows.sites);
+  const PairConstants<P> c =
+      one_material ? common.constants : load_constants<P>([&](int lane) -> const PairConstants<Real>& {
+        return constants_of<Real>(v, v.materials[pairs[lane].a], v.materials[pairs[lane].b]);
+      });
+  const P effective_radius = rows.a.radius * rows.b.radius * g.inverse_reach;
   P attraction(0);
   const ContactStates s = contact_states(laws, bits, g.overlap, c, effective_radius, attraction);
   const M touching = M::from_bits(s.touching);
 
   P arm_a, arm_b;
-  const ContactKinematics<P> kin = pair_kinematics(laws, g, a, b, effective_radius, arm_a, arm_b);
-  const auto spring = [&](void* springs) { return static_cast<Real*>(springs) + kSpringReals * first; };
+  const ContactKinematics<P> kin = pair_kinematics(laws, g, rows.a, rows.b, effective_radius, arm_a, arm_b);
+  const auto spring = [&](void* springs) { return static_cast<Real*>(springs) + spring_index(first, 0); };
   ContactMemory<P> memory{};
   if (laws.tangential == TangentialLaw::mindlin) memory.sliding = load_spring<P>(spring(v.pairs.sliding));
   if (laws.rolling == RollingLaw::epsd2) memory.rolling = load_spring<P>(spring(v.pairs.rolling));
-  const auto step = step_constants<P>(v.dt, v.slider_velocity);
-  const ContactForce<P> f = evaluate_contact(laws, kin, c, memory, step);
+  const ContactForce<P> f = evaluate_contact(laws, kin, c, memory, common.step);
 
   if (laws.tangential == TangentialLaw::mindlin)
     store_spring(f.memory.sliding, touching, spring(v.pairs.sliding));
@@ -112,15 +124,12 @@ void evaluate_group(const L& laws, const StepView& v, const PairConstants<simd::
   Vec3<P> torque_a = none, torque_b = none;
   if (laws.tangential != TangentialLaw::none || laws.rolling != RollingLaw::none) {
     const Vec3<P> turning = cross(g.normal, f.tangential);
-    torque_a = select(touching, f.rolling_torque - arm_a * turning, none);
-    torque_b = select(touching, -f.rolling_torque - arm_b * turning, none);
+    torque_a = select(touching, multiply_add(-arm_a, turning, f.rolling_torque), none);
+    torque_b = select(touching, multiply_add(-arm_b, turning, -f.rolling_torque), none);
   }
   const Vec3<P> force = select(touching, f.force, across);
-  store_ends(v.pairs.ends + first, force, torque_a, torque_b, static_cast<Real*>(v.pairs.end_forces));
-  if (v.pairs.forces) {
-    Real* const forces = static_cast<Real*>(v.pairs.forces) + 3 * first;
-    force.x.store(forces), force.y.store(forces + kLanes), force.z.store(forces + 2 * kLanes);
-  }
+  store_ends(v.pairs.ends + first, force, torque_a, torque_b, v.pairs.end_forces);
+  if (v.pairs.forces) store_columns(force, static_cast<Real*>(v.pairs.forces) + axis_index(first, 0));
   if constexpr (kCountsHeat<L>) {
     const P torn = s.torn != 0 ? tear_heat(c, effective_radius) : P(0);
     if (v.pairs.heat) store_heat(s, f, memory, torn, v.pairs.heat + first);
@@ -129,17 +138,33 @@ void evaluate_group(const L& laws, const StepView& v, const PairConstants<simd::
   bits.attracting = static_cast<std::uint16_t>(s.attracting);
 }
 
+template <bool one_material, class L, class P>
+void evaluate_range(const L& laws, const StepView& v, const CommonInputs<P>& common, std::size_t begin,
+                    std::size_t end) {
+  for (std::size_t group = begin; group < end; ++group) {
+    const PairRows<P> rows = load_pair_rows<P>(v, common.periods, v.pairs.pairs + group * kLanes);
+    if (stay_apart(laws, v.pairs.bits[group], rows.sites.excess)) {
+      leave_apart<P>(v, group);
+    } else {
+      evaluate_group<one_material>(laws, v, common, rows, group);
+    }
+  }
+}
+
+/// Evaluates the groups [begin, end).
 template <class L, class Real>
-INTERSTICE_FLATTEN void evaluate_groups(const L& laws, const StepView& v, std::size_t begin,
+INTERSTICE_FLATTEN void evaluate_groups(const L& laws, const StepView& view, std::size_t begin,
                                         std::size_t end) {
   using P = simd::Pack<Real, kLanes>;
   const simd::FlushTinyNumbers flush;
+  const StepView v = view;  // of which the compiler knows that nothing stored changes it
+  CommonInputs<P> common{step_constants<P>(v.dt, v.slider_velocity), Periods(v.period), {}};
   if (v.only_material >= 0) {
     const auto m = static_cast<std::size_t>(v.only_material);
-    const PairConstants<P> only = constants_of<Real>(v, m, m).template as<P>();
-    for (std::size_t g = begin; g < end; ++g) evaluate_group<L, Real>(laws, v, &only, g);
+    common.constants = constants_of<Real>(v, m, m).template as<P>();
+    evaluate_range<true>(laws, v, common, begin, end);
   } else {
-    for (std::size_t g = begin; g < end; ++g) evaluate_group<L, Real>(laws, v, nullptr, g);
+    evaluate_range<false>(laws, v, common, begin, end);
   }
 }
 

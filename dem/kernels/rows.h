@@ -9,50 +9,64 @@
 
 namespace interstice::dem {
 
-/// A grain of each contact.
+/// What the laws read of a grain of each contact, besides its place.
 template <class P>
 struct GrainRows {
-  Vec3<simd::Pack<double, kLanes>> position;
-  simd::Pack<double, kLanes> radius;  // as exact as the positions
-  Vec3<P> velocity, spin;
-  P mass;
+  Vec3<P> velocity;
+  P inverse_mass;
+  Vec3<P> spin;
+  P radius;
 };
 
-/// The grains in the slots slot_at(0), slot_at(1), ...
-template <class P, class SlotAt>
-GrainRows<P> load_rows(const StepView& v, const SlotAt& slot_at) {
-  using Real = RealOf<P>;
-  using Row = PairRow<Real>;
-  const auto* rows = static_cast<const std::byte*>(v.rows);
-  simd::QuadLoader<double, kLanes> sites;
-  simd::QuadLoader<Real, kLanes> velocities, spins;
+template <class P>
+using RowLoader = simd::OctLoader<RealOf<P>, kLanes>;
+
+template <class P>
+GrainRows<P> grain_rows(const RowLoader<P>& loader) {
+  const auto c = loader.columns();
+  return {{c[0], c[1], c[2]}, c[3], {c[4], c[5], c[6]}, c[7]};
+}
+
+/// What the laws read of a group of pairs.
+template <class P>
+struct PairRows {
+  PairSites<P> sites;
+  GrainRows<P> a, b;
+};
+
+template <class P>
+PairRows<P> load_pair_rows(const StepView& v, const Periods& periods, const PairRef* pairs) {
+  using Row = PairRow<RealOf<P>>;
+  const simd::RowOffsets<2 * kLanes> offsets(pairs, sizeof(Row) / sizeof(double));
+  simd::QuadLoader<kLanes> apart;
+  RowLoader<P> of_a, of_b;
   simd::unrolled<kLanes>([&](auto lane) {
     constexpr int i = decltype(lane)::value;
-    const std::byte* row = rows + sizeof(Row) * slot_at(i);
-    sites.template load<i>(row);
-    velocities.template load<i>(row + offsetof(Row, vx));
-    spins.template load<i>(row + offsetof(Row, wx));
+    const Row &a = *offsets.template at<Row>(2 * i, v.rows),
+              &b = *offsets.template at<Row>(2 * i + 1, v.rows);
+    apart.template load_difference<i>(&a.x, &b.x);
+    of_a.template load<i>(&a.vx);
+    of_b.template load<i>(&b.vx);
   });
-  const auto s = sites.quad();
-  const auto u = velocities.quad(), w = spins.quad();
-  return {{s.a, s.b, s.c}, s.d, {u.a, u.b, u.c}, {w.a, w.b, w.c}, u.d};
+  const auto c = apart.columns();
+  return {pair_sites<P>(Vec3<Doubles>{c[0], c[1], c[2]}, c[3], periods), grain_rows<P>(of_a),
+          grain_rows<P>(of_b)};
 }
 
 /// The constants that constants_at(0), constants_at(1), ... name.
-template <class Real, class ConstantsAt>
-PairConstants<simd::Pack<Real, kLanes>> load_constants(const ConstantsAt& constants_at) {
-  using Scalars = PairConstants<Real>;
-  static_assert(sizeof(Scalars) == 12 * sizeof(Real), "three quads");
-  simd::QuadLoader<Real, kLanes> first, second, third;
+template <class P, class ConstantsAt>
+PairConstants<P> load_constants(const ConstantsAt& constants_at) {
+  using Scalars = PairConstants<RealOf<P>>;
+  static_assert(sizeof(Scalars) == 12 * sizeof(RealOf<P>), "eight, and the last eight");
+  simd::OctLoader<RealOf<P>, kLanes> first, last;
   simd::unrolled<kLanes>([&](auto lane) {
     constexpr int i = decltype(lane)::value;
     const Scalars& c = constants_at(i);
-    first.template load<i>(reinterpret_cast<const std::byte*>(&c.effective_modulus));
-    second.template load<i>(reinterpret_cast<const std::byte*>(&c.friction));
-    third.template load<i>(reinterpret_cast<const std::byte*>(&c.hamaker_constant));
+    first.template load<i>(&c.effective_modulus);
+    last.template load<i>(&c.friction);
   });
-  const auto p = first.quad(), q = second.quad(), r = third.quad();
-  return {p.a, p.b, p.c, p.d, q.a, q.b, q.c, q.d, r.a, r.b, r.c, r.d};
+  const auto p = first.columns(), q = last.columns();
+  return {p[0], p[1], p[2], p[3], q[0], q[1], q[2], q[3], q[4], q[5], q[6], q[7]};
 }
 
 }  // namespace interstice::dem

@@ -52,19 +52,19 @@ GroupBits bits_of(const At& contact_at) {
 /// A spring that a contact keeps in double.
 template <TangentialSpring<double> WallContact::*spring, class P, class At>
 TangentialSpring<P> load_wall_spring(const At& contact_at) {
-  simd::QuadLoader<double, kLanes> loader;
+  simd::QuadLoader<kLanes> loader;
   simd::unrolled<kLanes>([&](auto lane) {
     constexpr int i = decltype(lane)::value;
-    loader.template load<i>(reinterpret_cast<const std::byte*>(&(contact_at(i).*spring)));
+    loader.template load<i>(&(contact_at(i).*spring).force.x);
   });
-  const auto q = loader.quad();
-  using Real = RealOf<P>;
-  return {simd::converted<Real>(Vec3<simd::Pack<double, kLanes>>{q.a, q.b, q.c}), simd::converted<Real>(q.d)};
+  const auto c = loader.columns();
+  const auto real = [](const auto& column) { return simd::converted<RealOf<P>>(column); };
+  return {{real(c[0]), real(c[1]), real(c[2])}, real(c[3])};
 }
 template <TangentialSpring<double> WallContact::*spring, class P, class At>
 void store_wall_spring(const TangentialSpring<P>& s, const typename P::M& kept, const At& contact_at) {
   const auto d = [&](const P& number) { return simd::converted<double>(select(kept, number, P(0))); };
-  const simd::QuadStorer<double, kLanes> storer({d(s.force.x), d(s.force.y), d(s.force.z), d(s.stiffness)});
+  const simd::Quads<double, kLanes> storer(d(s.force.x), d(s.force.y), d(s.force.z), d(s.stiffness));
   simd::unrolled<kLanes>([&](auto lane) {
     constexpr int i = decltype(lane)::value;
     storer.template store<i>(&(contact_at(i).*spring).force.x);
@@ -74,7 +74,7 @@ void store_wall_spring(const TangentialSpring<P>& s, const typename P::M& kept, 
 template <class P, class To>
 void store_vectors(const Vec3<P>& v, const To& to) {
   const auto d = simd::converted<double>(v);
-  const simd::QuadStorer<double, kLanes> storer({d.x, d.y, d.z, simd::Pack<double, kLanes>(0)});
+  const simd::Quads<double, kLanes> storer(d.x, d.y, d.z, simd::Pack<double, kLanes>(0));
   simd::unrolled<kLanes>([&](auto lane) {
     constexpr int i = decltype(lane)::value;
     storer.template store_three<i>(&to(i).x);
@@ -101,31 +101,38 @@ void evaluate_wall_group(const L& laws, const StepView& v, WallContact* contacts
   const auto effect_at = [&](int lane) -> WallEffect& {
     return effects[std::min(static_cast<std::size_t>(lane), count - 1)];
   };
-  const GrainRows<P> grain = load_rows<P>(v, [&](int lane) { return contact_at(lane).slot; });
-  const WallGeometry<P> wall = wall_geometry<P>(v, contacts, count, grain.position);
-  const P overlap = simd::converted<Real>(grain.radius - wall.distance),
-          radius = simd::converted<Real>(grain.radius);
+  simd::QuadLoader<kLanes> sites;
+  RowLoader<P> rows;
+  simd::unrolled<kLanes>([&](auto lane) {
+    constexpr int i = decltype(lane)::value;
+    const auto& row = static_cast<const PairRow<Real>*>(v.rows)[contact_at(i).slot];
+    sites.template load<i>(&row.x);
+    rows.template load<i>(&row.vx);
+  });
+  const auto site = sites.columns();
+  const GrainRows<P> grain = grain_rows<P>(rows);
+  const WallGeometry<P> wall = wall_geometry<P>(v, contacts, count, {site[0], site[1], site[2]});
+  const P overlap = simd::converted<Real>(site[3] - wall.distance);
   const GroupBits bits = bits_of(contact_at);
   if (stay_apart(laws, bits, overlap)) {
     std::fill_n(effects, count, WallEffect{});
     return;
   }
-  const PairConstants<P> c = load_constants<Real>([&](int lane) -> const PairConstants<Real>& {
+  const PairConstants<P> c = load_constants<P>([&](int lane) -> const PairConstants<Real>& {
     const WallContact& contact = contact_at(lane);
-    const auto* rows = static_cast<const PairRow<Real>*>(v.rows);
-    return constants_of<Real>(v, rows[contact.slot].material, v.wall_models[contact.wall].material);
+    return constants_of<Real>(v, v.materials[contact.slot], v.wall_models[contact.wall].material);
   });
   P attraction(0);
-  const ContactStates s = contact_states(laws, bits, overlap, c, radius, attraction);
+  const ContactStates s = contact_states(laws, bits, overlap, c, grain.radius, attraction);
   const M touching = M::from_bits(s.touching);
 
   ContactKinematics<P> kin{};
   kin.overlap = laws.cohesion == CohesionLaw::jkr ? overlap : max_of(overlap, P(0));
-  kin.effective_radius = radius;
-  kin.effective_mass = grain.mass;
+  kin.effective_radius = grain.radius;
+  kin.effective_mass = inverse_of(grain.inverse_mass);
   kin.normal = wall.normal;
-  if (laws.cohesion == CohesionLaw::sjkr) kin.area = sphere_plane_area(radius, kin.overlap);
-  const P arm = radius - kin.overlap;
+  if (laws.cohesion == CohesionLaw::sjkr) kin.area = sphere_plane_area(grain.radius, kin.overlap);
+  const P arm = grain.radius - kin.overlap;
   kin.velocity = grain.velocity - wall.velocity;
   kin.relative_spin = grain.spin;
   if (laws.tangential != TangentialLaw::none)
@@ -148,14 +155,14 @@ void evaluate_wall_group(const L& laws, const StepView& v, WallContact* contacts
   if (laws.cohesion == CohesionLaw::van_der_waals)
     across = select(M::from_bits(s.attracting), -attraction * wall.normal, none);
   if (laws.tangential != TangentialLaw::none || laws.rolling != RollingLaw::none)
-    torque = select(touching, f.rolling_torque - arm * cross(wall.normal, f.tangential), none);
+    torque = select(touching, multiply_add(-arm, cross(wall.normal, f.tangential), f.rolling_torque), none);
   const Vec3<P> force = select(touching, f.force, across);
   store_vectors(force, [&](int lane) -> Vec3d& { return contact_at(lane).force; });
   store_vectors(torque, [&](int lane) -> Vec3d& { return effect_at(lane).torque; });
   set_states(s, contacts, count);
   if constexpr (kCountsHeat<L>) {
     PairHeat heat[kLanes];
-    const P torn = s.torn != 0 ? tear_heat(c, radius) : P(0);
+    const P torn = s.torn != 0 ? tear_heat(c, grain.radius) : P(0);
     store_heat(s, f, memory, torn, heat);
     for (std::size_t i = 0; i < count; ++i) {
       effects[i].heat = heat[i];

@@ -49,6 +49,9 @@ class FlushTinyNumbers {
 #endif
 };
 
+// What a pack, a mask or rows consist of is `mutable` for the compiler's sake: gcc 12 keeps the parts of a
+// constant of such a type in memory and copies them to and fro, because a constant cannot be taken apart.
+
 /// A truth value a lane, in one register or in two halves.
 template <class T, int N, bool = kFitsRegister<T, N>>
 struct Mask;
@@ -59,7 +62,7 @@ struct Pack;
 #ifdef INTERSTICE_AVX512
 template <class T, int N>
 struct Mask<T, N, true> {
-  std::uint32_t lanes;  // bit by lane
+  mutable std::uint32_t lanes;  // bit by lane
 
   std::uint32_t bits() const { return lanes; }
   static Mask from_bits(std::uint32_t b) { return {b & ((1u << N) - 1)}; }
@@ -71,7 +74,7 @@ struct Mask<T, N, true> {
 template <class T, int N>
 struct Mask<T, N, true> {
   typedef IntegerOf<T> Lanes __attribute__((vector_size(N * sizeof(T))));
-  Lanes lanes;  // all ones or zero
+  mutable Lanes lanes;  // all ones or zero
 
   std::uint32_t bits() const {
     std::uint32_t b = 0;
@@ -106,7 +109,7 @@ template <class T, int N>
 struct Pack<T, N, true> {
   using M = Mask<T, N>;
   typedef T Lanes __attribute__((vector_size(N * sizeof(T))));
-  Lanes lanes;
+  mutable Lanes lanes;
 
   Pack() : lanes{} {}
   Pack(Lanes l) : lanes(l) {}
@@ -194,6 +197,20 @@ struct Pack<T, N, true> {
     }
     return multiply_add(Pack(0.5) * y, multiply_add(-a * y, y, Pack(1)), y);
   }
+  /// From the same estimate: the root itself improved, which is a multiplication shorter; none of zero.
+  static Pack improved_root(const Pack& a) {
+    Pack y;
+    if constexpr (std::is_same_v<T, float>) {
+      y.lanes = _mm512_rsqrt14_ps(a.lanes);
+    } else {
+      y.lanes = _mm512_rsqrt14_pd(a.lanes);
+      const Pack off = multiply_add(-a * y, y, Pack(1));
+      y = multiply_add(y * off, multiply_add(Pack(0.375), off, Pack(0.5)), y);
+    }
+    const Pack root = a * y;
+    return select(a > Pack(0), multiply_add(Pack(0.5) * root, multiply_add(-root, y, Pack(1)), root),
+                  Pack(0));
+  }
 #endif
   friend Pack inverse_of(const Pack& a) {
 #ifdef INTERSTICE_AVX512
@@ -210,8 +227,7 @@ struct Pack<T, N, true> {
   /// A unit in the last place off in a whole AVX-512 register, else exact.
   friend Pack sqrt_of(const Pack& a) {
 #ifdef INTERSTICE_AVX512
-    if constexpr (sizeof(Lanes) == 64)
-      return a * improved_inverse_root(max_of(a, Pack(std::numeric_limits<T>::min())));
+    if constexpr (sizeof(Lanes) == 64) return improved_root(a);
 #endif
     Pack r;  // with -fno-math-errno one instruction
     for (int i = 0; i < N; ++i) r.lanes[i] = std::sqrt(a.lanes[i]);
@@ -229,6 +245,43 @@ struct Pack<T, N, true> {
     }
 #endif
     return a * b + c;
+  }
+  /// The second where they are equal or one is no number, like a select by > or <.
+  friend Pack max_of(const Pack& a, const Pack& b) {
+#ifdef INTERSTICE_AVX512
+    if constexpr (sizeof(Lanes) == 64) {
+      if constexpr (std::is_same_v<T, float>) {
+        return _mm512_max_ps(a.lanes, b.lanes);
+      } else {
+        return _mm512_max_pd(a.lanes, b.lanes);
+      }
+    }
+#endif
+    return select(a > b, a, b);
+  }
+  friend Pack min_of(const Pack& a, const Pack& b) {
+#ifdef INTERSTICE_AVX512
+    if constexpr (sizeof(Lanes) == 64) {
+      if constexpr (std::is_same_v<T, float>) {
+        return _mm512_min_ps(a.lanes, b.lanes);
+      } else {
+        return _mm512_min_pd(a.lanes, b.lanes);
+      }
+    }
+#endif
+    return select(a < b, a, b);
+  }
+  friend Pack abs_of(const Pack& a) {
+#ifdef INTERSTICE_AVX512
+    if constexpr (sizeof(Lanes) == 64) {
+      if constexpr (std::is_same_v<T, float>) {
+        return _mm512_abs_ps(a.lanes);
+      } else {
+        return _mm512_abs_pd(a.lanes);
+      }
+    }
+#endif
+    return select(a < Pack(0), -a, a);
   }
   template <class F>
   friend Pack each(const Pack& a, const F& f) {
@@ -271,6 +324,9 @@ struct Pack<T, N, false> {
     return {multiply_add(a.lo, b.lo, c.lo), multiply_add(a.hi, b.hi, c.hi)};
   }
   friend Pack sqrt_of(const Pack& a) { return {sqrt_of(a.lo), sqrt_of(a.hi)}; }
+  friend Pack max_of(const Pack& a, const Pack& b) { return {max_of(a.lo, b.lo), max_of(a.hi, b.hi)}; }
+  friend Pack min_of(const Pack& a, const Pack& b) { return {min_of(a.lo, b.lo), min_of(a.hi, b.hi)}; }
+  friend Pack abs_of(const Pack& a) { return {abs_of(a.lo), abs_of(a.hi)}; }
   friend Pack inverse_of(const Pack& a) { return {inverse_of(a.lo), inverse_of(a.hi)}; }
   friend Pack inverse_root_of(const Pack& a) { return {inverse_root_of(a.lo), inverse_root_of(a.hi)}; }
   template <class F>
@@ -283,17 +339,11 @@ template <class T, int N>
 Pack<T, N>& operator+=(Pack<T, N>& a, const Pack<T, N>& b) {
   return a = a + b;
 }
+/// The nearest whole number, of numbers below 2^22 (2^51) in single (double).
 template <class T, int N>
-Pack<T, N> max_of(const Pack<T, N>& a, const Pack<T, N>& b) {
-  return select(a > b, a, b);
-}
-template <class T, int N>
-Pack<T, N> min_of(const Pack<T, N>& a, const Pack<T, N>& b) {
-  return select(a < b, a, b);
-}
-template <class T, int N>
-Pack<T, N> abs_of(const Pack<T, N>& a) {
-  return select(a < Pack<T, N>(0), -a, a);
+Pack<T, N> rounded(const Pack<T, N>& a) {
+  const Pack<T, N> large(sizeof(T) == 4 ? 12582912.0 : 6755399441055744.0);
+  return (a + large) - large;
 }
 template <class T, int N>
 Pack<T, N> cbrt_of(const Pack<T, N>& a) {

@@ -1,19 +1,18 @@
-// Rows of memory to packs and back: lane i of four packs is what row i holds side by side. Sixteen bytes at a
-// time are put together in a register and reordered there, which is far faster than gathering field by field.
-// Rows are visited one after the other, so that an address is needed once.
+// Rows of memory to packs and back: lane i of each pack is what row i holds side by side. Thirty-two bytes of
+// a row, four doubles or eight floats, are loaded or stored at once and reordered in registers, which is far
+// faster than gathering number by number. Rows are visited one after the other, so that an address is needed
+// once.
+//
+// In registers: 16-byte blocks of as many rows as a block has numbers are turned like a small square matrix,
+// which takes instructions that stay within blocks; what is left is whole blocks changing places.
 #pragma once
 
+#include <array>
 #include <utility>
 
 #include "dem/simd/pack.h"
 
 namespace interstice::dem::simd {
-
-/// Four numbers of each row.
-template <class P>
-struct Quad {
-  P a, b, c, d;
-};
 
 /// Lanes of a register.
 template <class T>
@@ -47,34 +46,76 @@ void unrolled(const Body& body) {
   (std::make_integer_sequence<int, n>{});
 }
 
+/// Where N rows begin, in doubles from the first row: an index that the processor scales by itself.
+template <int N>
+class RowOffsets {
+ public:
+  /// `indices`: N whole numbers of 32 bits; `doubles`: in a row.
+  RowOffsets(const void* indices, std::uint32_t doubles) {
+    typedef std::uint32_t Many __attribute__((vector_size(32)));  // from wider stores some loads wait
+    for (std::size_t byte = 0; byte < sizeof(at_); byte += sizeof(Many)) {
+      Many many;
+      __builtin_memcpy(&many, static_cast<const char*>(indices) + byte, sizeof(Many));
+      many *= doubles;
+      __builtin_memcpy(reinterpret_cast<char*>(at_) + byte, &many, sizeof(Many));
+    }
+    // In memory each is an operand; taken out of the register, as the compiler would, it costs two
+    // instructions.
+    asm("" : "+m"(at_));
+  }
+  template <class Row>
+  const Row* at(int i, const void* first) const {
+    return reinterpret_cast<const Row*>(static_cast<const double*>(first) + at_[i]);
+  }
+  template <class Row>
+  Row* at(int i, void* first) const {
+    return reinterpret_cast<Row*>(static_cast<double*>(first) + at_[i]);
+  }
+
+ private:
+  alignas(64) std::uint32_t at_[N];
+};
+
 #if defined(__AVX__)
 namespace detail {
 
-/// Puts the 16 bytes at p into block `at` of a register.
-template <int at, class V>
-void set_block(V& v, const void* p) {
-  const __m128 block = _mm_loadu_ps(static_cast<const float*>(p));
-  if constexpr (sizeof(V) == 32) {
-    v = at == 0 ? reinterpret_cast<V>(_mm256_castps128_ps256(block))
-                : reinterpret_cast<V>(_mm256_insertf128_ps(reinterpret_cast<__m256>(v), block, 1));
+/// Numbers in a block of 16 bytes.
+template <class T>
+inline constexpr int kPerBlock = 16 / static_cast<int>(sizeof(T));
+
+/// Where a row of 32 bytes lies in a set of registers that holds as many rows as a register has lanes.
+template <class T>
+struct RowPlace {
+  static constexpr int rows_per_register = kNativeBytes / 32;
+  static constexpr int registers = 2 * kPerBlock<T>;  // of a set
+
+  static constexpr int set(int row) { return row / kNativeLanes<T>; }
+  static constexpr int index(int row) {
+    const int in_set = row % kNativeLanes<T>;
+    return in_set % kPerBlock<T> + kPerBlock<T> * (in_set / (kPerBlock<T> * rows_per_register));
   }
+  static constexpr int half(int row) { return row / kPerBlock<T> % rows_per_register; }
+};
+
+template <int half, class V>
+void set_row(V& v, const __m256d& row) {
+  if constexpr (sizeof(V) == 32) v = reinterpret_cast<V>(row);
 #ifdef INTERSTICE_AVX512
   if constexpr (sizeof(V) == 64) {
-    v = at == 0 ? reinterpret_cast<V>(_mm512_castps128_ps512(block))
-                : reinterpret_cast<V>(_mm512_insertf32x4(reinterpret_cast<__m512>(v), block, at));
+    v = half == 0 ? reinterpret_cast<V>(_mm512_castpd256_pd512(row))
+                  : reinterpret_cast<V>(_mm512_insertf64x4(reinterpret_cast<__m512d>(v), row, 1));
   }
 #endif
 }
-
-template <int at, class V>
-__m128 block_of(const V& v) {
+template <int half, class V>
+__m256d row_of(const V& v) {
 #ifdef INTERSTICE_AVX512
-  if constexpr (sizeof(V) == 64) return _mm512_extractf32x4_ps(reinterpret_cast<__m512>(v), at);
+  if constexpr (sizeof(V) == 64) return _mm512_extractf64x4_pd(reinterpret_cast<__m512d>(v), half);
 #endif
-  if constexpr (sizeof(V) == 32) return _mm256_extractf128_ps(reinterpret_cast<__m256>(v), at);
+  if constexpr (sizeof(V) == 32) return reinterpret_cast<__m256d>(v);
 }
 
-/// Interleaves numbers of type T of the lower or upper half of every 16 bytes.
+/// Interleaves numbers of type T of the lower or upper half of every block.
 template <class T, bool upper, class V>
 V interleave(const V& a, const V& b) {
   if constexpr (sizeof(V) == 32) {
@@ -99,123 +140,230 @@ V interleave(const V& a, const V& b) {
 #endif
 }
 
+/// Every other block of a, then of b, from the first or the second on.
+template <bool second, class V>
+V every_other(const V& a, const V& b) {
+  if constexpr (sizeof(V) == 32) {
+    return reinterpret_cast<V>(_mm256_permute2f128_pd(reinterpret_cast<__m256d>(a),
+                                                      reinterpret_cast<__m256d>(b), second ? 0x31 : 0x20));
+  }
+#ifdef INTERSTICE_AVX512
+  if constexpr (sizeof(V) == 64) {
+    return reinterpret_cast<V>(_mm512_shuffle_f64x2(reinterpret_cast<__m512d>(a),
+                                                    reinterpret_cast<__m512d>(b), second ? 0xdd : 0x88));
+  }
+#endif
+}
+/// Blocks of a and b in turns, those of their lower or upper halves.
+template <bool upper, class V>
+V in_turns(const V& a, const V& b) {
+  if constexpr (sizeof(V) == 32) return every_other<upper>(a, b);
+#ifdef INTERSTICE_AVX512
+  if constexpr (sizeof(V) == 64) {
+    const __m512i from =
+        upper ? _mm512_setr_epi64(4, 5, 12, 13, 6, 7, 14, 15) : _mm512_setr_epi64(0, 1, 8, 9, 2, 3, 10, 11);
+    return reinterpret_cast<V>(
+        _mm512_permutex2var_pd(reinterpret_cast<__m512d>(a), from, reinterpret_cast<__m512d>(b)));
+  }
+#endif
+}
+
+/// Number i of each block of register j becomes number j of that block of register i.
+template <class T, class V>
+void turn_blocks(V* v) {
+  if constexpr (sizeof(T) == 8) {
+    const V a = v[0], b = v[1];
+    v[0] = interleave<T, false>(a, b), v[1] = interleave<T, true>(a, b);
+  } else {
+    const V ab01 = interleave<T, false>(v[0], v[1]), ab23 = interleave<T, true>(v[0], v[1]);
+    const V cd01 = interleave<T, false>(v[2], v[3]), cd23 = interleave<T, true>(v[2], v[3]);
+    v[0] = interleave<double, false>(ab01, cd01), v[1] = interleave<double, true>(ab01, cd01);
+    v[2] = interleave<double, false>(ab23, cd23), v[3] = interleave<double, true>(ab23, cd23);
+  }
+}
+
+/// 32 bytes of each of N rows, in registers.
+template <class T, int N>
+struct RowSet {
+  using V = typename Pack<T, kNativeLanes<T>>::Lanes;
+  using Place = RowPlace<T>;
+  static constexpr int kSets = N / kNativeLanes<T>, kColumns = Place::registers;
+  mutable V v[kSets][kColumns];
+
+  template <int row>
+  void set(const __m256d& r) {
+    set_row<Place::half(row)>(v[Place::set(row)][Place::index(row)], r);
+  }
+  template <int row>
+  __m256d get() const {
+    return row_of<Place::half(row)>(v[Place::set(row)][Place::index(row)]);
+  }
+  std::array<Pack<T, N>, kColumns> columns() const {
+    constexpr int half = kColumns / 2;
+    V c[kColumns][kSets];
+    unrolled<kSets>([&](auto set) {
+      V turned[kColumns];
+      unrolled<kColumns>([&](auto j) { turned[j] = v[set][j]; });
+      turn_blocks<T>(turned), turn_blocks<T>(turned + half);
+      unrolled<half>([&](auto j) {
+        c[j][set] = every_other<false>(turned[j], turned[half + j]);
+        c[half + j][set] = every_other<true>(turned[j], turned[half + j]);
+      });
+    });
+    return packs_of(c, std::make_index_sequence<kColumns>{});
+  }
+  template <std::size_t... J>
+  static std::array<Pack<T, N>, kColumns> packs_of(const V (&c)[kColumns][kSets], std::index_sequence<J...>) {
+    return {assembled<T, N>(c[J])...};
+  }
+};
+
 }  // namespace detail
 #endif
 
-/// Collects four numbers of type T of each of N rows.
-template <class T, int N>
+template <class P>
+using Octs = std::array<P, 8>;
+
+/// Collects four doubles of each of N rows.
+template <int N>
 class QuadLoader {
  public:
+  using P = Pack<double, N>;
 #if defined(__AVX__)
-  /// The numbers at p belong to this row.
   template <int row>
-  void load(const std::byte* p) {
-    constexpr int at = row % kNativeLanes<T> / kPerBlock;
-    unrolled<kHalves>([&](auto half) {
-      constexpr int h = decltype(half)::value;
-      detail::set_block<at>(blocks_[h][row % kPerBlock][row / kNativeLanes<T>], p + 16 * h);
-    });
+  void load(const double* p) {
+    rows_.template set<row>(_mm256_loadu_pd(p));
   }
-  Quad<Pack<T, N>> quad() const {
-    using namespace detail;
-    V columns[4][kRegisters];
-    unrolled<kRegisters>([&](auto index) {
-      constexpr int r = decltype(index)::value;
-      if constexpr (sizeof(T) == 8) {
-        unrolled<2>([&](auto which) {
-          constexpr int half = decltype(which)::value;
-          columns[2 * half][r] = interleave<T, false>(blocks_[half][0][r], blocks_[half][1][r]);
-          columns[2 * half + 1][r] = interleave<T, true>(blocks_[half][0][r], blocks_[half][1][r]);
-        });
-      } else {
-        const auto& b = blocks_[0];
-        const V ab01 = interleave<T, false>(b[0][r], b[1][r]), ab23 = interleave<T, false>(b[2][r], b[3][r]);
-        const V cd01 = interleave<T, true>(b[0][r], b[1][r]), cd23 = interleave<T, true>(b[2][r], b[3][r]);
-        columns[0][r] = interleave<double, false>(ab01, ab23);
-        columns[1][r] = interleave<double, true>(ab01, ab23);
-        columns[2][r] = interleave<double, false>(cd01, cd23);
-        columns[3][r] = interleave<double, true>(cd01, cd23);
-      }
-    });
-    return {assembled<T, N>(columns[0]), assembled<T, N>(columns[1]), assembled<T, N>(columns[2]),
-            assembled<T, N>(columns[3])};
+  /// Three differences a - b and one sum.
+  template <int row>
+  void load_difference(const double* a, const double* b) {
+    const __m256d signs = _mm256_setr_pd(-0.0, -0.0, -0.0, 0.0);
+    rows_.template set<row>(_mm256_add_pd(_mm256_xor_pd(_mm256_loadu_pd(b), signs), _mm256_loadu_pd(a)));
   }
+  std::array<P, 4> columns() const { return rows_.columns(); }
 
  private:
-  using V = typename Pack<T, kNativeLanes<T>>::Lanes;
-  static constexpr int kPerBlock = 16 / static_cast<int>(sizeof(T)), kHalves = sizeof(T) == 8 ? 2 : 1;
-  static constexpr int kRegisters = N / kNativeLanes<T>;
-  V blocks_[kHalves][kPerBlock][kRegisters];
+  detail::RowSet<double, N> rows_;
 #else
   template <int row>
-  void load(const std::byte* p) {
-    for (std::size_t j = 0; j < 4; ++j) __builtin_memcpy(&columns_[j][row], p + sizeof(T) * j, sizeof(T));
+  void load(const double* p) {
+    for (int j = 0; j < 4; ++j) columns_[j][row] = p[j];
   }
-  Quad<Pack<T, N>> quad() const {
-    using P = Pack<T, N>;
+  template <int row>
+  void load_difference(const double* a, const double* b) {
+    for (int j = 0; j < 4; ++j) columns_[j][row] = j < 3 ? a[j] - b[j] : a[j] + b[j];
+  }
+  std::array<P, 4> columns() const {
     return {P::load(columns_[0]), P::load(columns_[1]), P::load(columns_[2]), P::load(columns_[3])};
   }
 
  private:
-  T columns_[4][N];
+  double columns_[4][N];
 #endif
 };
 
-/// Puts four numbers of type T, or the first three of them, into each of N rows.
+/// Collects eight numbers of type T of each of N rows.
 template <class T, int N>
-class QuadStorer {
+class OctLoader {
  public:
+  using P = Pack<T, N>;
 #if defined(__AVX__)
-  explicit QuadStorer(const Quad<Pack<T, N>>& q) {
-    unrolled<kRegisters>([&](auto r) {
-      using namespace detail;
-      constexpr int lane = decltype(r)::value * kNativeLanes<T>;
-      const V a = register_at<lane>(q.a), b = register_at<lane>(q.b), c = register_at<lane>(q.c),
-              d = register_at<lane>(q.d);
-      if constexpr (sizeof(T) == 8) {
-        blocks_[0][0][r] = interleave<T, false>(a, b), blocks_[0][1][r] = interleave<T, true>(a, b);
-        blocks_[1][0][r] = interleave<T, false>(c, d), blocks_[1][1][r] = interleave<T, true>(c, d);
-      } else {
-        const V ab01 = interleave<T, false>(a, b), ab23 = interleave<T, true>(a, b);
-        const V cd01 = interleave<T, false>(c, d), cd23 = interleave<T, true>(c, d);
-        blocks_[0][0][r] = interleave<double, false>(ab01, cd01);
-        blocks_[0][1][r] = interleave<double, true>(ab01, cd01);
-        blocks_[0][2][r] = interleave<double, false>(ab23, cd23);
-        blocks_[0][3][r] = interleave<double, true>(ab23, cd23);
-      }
-    });
-  }
   template <int row>
-  void store(T* to) const {
-    for (int b = 0; b < kBlocks; ++b)
-      _mm_storeu_ps(reinterpret_cast<float*>(to + b * kPerBlock), block<row>(b));
-  }
-  /// Leaves what follows the three as it is.
-  template <int row>
-  void store_three(T* to) const {
+  void load(const T* p) {
     if constexpr (sizeof(T) == 8) {
-      _mm_storeu_ps(reinterpret_cast<float*>(to), block<row>(0));
-      _mm_storel_pd(to + 2, _mm_castps_pd(block<row>(1)));
+      rows_[0].template set<row>(_mm256_loadu_pd(p));
+      rows_[1].template set<row>(_mm256_loadu_pd(p + 4));
     } else {
-      _mm_maskstore_ps(to, _mm_setr_epi32(-1, -1, -1, 0), block<row>(0));
+      rows_[0].template set<row>(_mm256_castps_pd(_mm256_loadu_ps(p)));
+    }
+  }
+  Octs<P> columns() const {
+    if constexpr (sizeof(T) == 8) {
+      const auto lo = rows_[0].columns(), hi = rows_[1].columns();
+      return {lo[0], lo[1], lo[2], lo[3], hi[0], hi[1], hi[2], hi[3]};
+    } else {
+      return rows_[0].columns();
     }
   }
 
  private:
-  using V = typename Pack<T, kNativeLanes<T>>::Lanes;
-  static constexpr int kPerBlock = 16 / static_cast<int>(sizeof(T)), kRegisters = N / kNativeLanes<T>;
-  static constexpr int kBlocks = sizeof(T) == 8 ? 2 : 1;
-
+  detail::RowSet<T, N> rows_[sizeof(T) / 4];
+#else
   template <int row>
-  __m128 block(int b) const {
-    constexpr int at = row % kNativeLanes<T> / kPerBlock;
-    return detail::block_of<at>(blocks_[b][row % kPerBlock][row / kNativeLanes<T>]);
+  void load(const T* p) {
+    for (int j = 0; j < 8; ++j) columns_[j][row] = p[j];
+  }
+  Octs<P> columns() const {
+    Octs<P> packs;
+    for (std::size_t j = 0; j < 8; ++j) packs[j] = P::load(columns_[j]);
+    return packs;
   }
 
-  V blocks_[kBlocks][kPerBlock][kRegisters];
+ private:
+  T columns_[8][N];
+#endif
+};
+
+/// Four numbers of type T of each of N rows, to be stored.
+template <class T, int N>
+class Quads {
+ public:
+  using P = Pack<T, N>;
+#if defined(__AVX__)
+  Quads(const P& a, const P& b, const P& c, const P& d) {
+    using namespace detail;
+    unrolled<kSets>([&](auto set) {
+      constexpr int lane = decltype(set)::value * kNativeLanes<T>;
+      V* const r = registers_[set];
+      r[0] = register_at<lane>(a), r[1] = register_at<lane>(b);
+      r[2] = register_at<lane>(c), r[3] = register_at<lane>(d);
+      turn_blocks<T>(r);
+      if constexpr (sizeof(T) == 8) {  // two blocks a row
+        turn_blocks<T>(r + 2);
+        const V even = in_turns<false>(r[0], r[2]), odd = in_turns<false>(r[1], r[3]);
+        r[2] = in_turns<true>(r[0], r[2]), r[3] = in_turns<true>(r[1], r[3]);
+        r[0] = even, r[1] = odd;
+      }
+    });
+  }
+  Quads operator-() const {
+    Quads q(*this);
+    unrolled<kSets * 4>([&](auto i) { q.registers_[i / 4][i % 4] = -q.registers_[i / 4][i % 4]; });
+    return q;
+  }
+  template <int row>
+  void store(double* to) const {
+    _mm256_storeu_pd(to, get<row>());
+  }
+  /// Leaves what follows the three as it is.
+  template <int row>
+  void store_three(double* to) const {
+    _mm256_maskstore_pd(to, _mm256_setr_epi64x(-1, -1, -1, 0), get<row>());
+  }
+
+ private:
+  template <class, int>
+  friend class OctStorer;
+  using V = typename Pack<T, kNativeLanes<T>>::Lanes;
+  static constexpr int kSets = N / kNativeLanes<T>;
+
+  template <int row>
+  __m256d get() const {
+    static_assert(sizeof(T) == 8, "four floats are half a row");
+    using Place = detail::RowPlace<T>;
+    return detail::row_of<Place::half(row)>(registers_[Place::set(row)][Place::index(row)]);
+  }
+
+  mutable V registers_[kSets][4];
 #else
-  explicit QuadStorer(const Quad<Pack<T, N>>& q) {
-    q.a.store(columns_[0]), q.b.store(columns_[1]), q.c.store(columns_[2]), q.d.store(columns_[3]);
+  Quads(const P& a, const P& b, const P& c, const P& d) {
+    a.store(columns_[0]), b.store(columns_[1]), c.store(columns_[2]), d.store(columns_[3]);
+  }
+  Quads operator-() const {
+    Quads q(*this);
+    for (auto& column : q.columns_)
+      for (T& number : column) number = -number;
+    return q;
   }
   template <int row>
   void store(T* to) const {
@@ -230,5 +378,41 @@ class QuadStorer {
   T columns_[4][N];
 #endif
 };
+
+/// Puts eight numbers of type T into each of N rows.
+template <class T, int N>
+class OctStorer {
+ public:
+  OctStorer(const Quads<T, N>& first, const Quads<T, N>& last) : first_(first), last_(last) {}
+  template <int row>
+  void store(T* to) const {
+    first_.template store<row>(to), last_.template store<row>(to + 4);
+  }
+
+ private:
+  Quads<T, N> first_, last_;
+};
+
+#if defined(__AVX__)
+template <int N>
+class OctStorer<float, N> {
+ public:
+  OctStorer(const Quads<float, N>& first, const Quads<float, N>& last) {
+    unrolled<4 * detail::RowSet<float, N>::kSets>([&](auto i) {
+      constexpr int set = decltype(i)::value / 4, j = decltype(i)::value % 4;
+      const auto &lo = first.registers_[set][j], &hi = last.registers_[set][j];
+      rows_.v[set][j] = detail::in_turns<false>(lo, hi);
+      rows_.v[set][4 + j] = detail::in_turns<true>(lo, hi);
+    });
+  }
+  template <int row>
+  void store(float* to) const {
+    _mm256_storeu_ps(to, _mm256_castpd_ps(rows_.template get<row>()));
+  }
+
+ private:
+  detail::RowSet<float, N> rows_;
+};
+#endif
 
 }  // namespace interstice::dem::simd

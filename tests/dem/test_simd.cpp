@@ -74,33 +74,69 @@ TYPED_TEST(Packs, InverseLengthsAreFiniteWhereSquaresUnderflow) {
   EXPECT_TRUE(std::isfinite(dem::inverse_length_of(none)));
 }
 
-TYPED_TEST(Packs, RowsBecomeLanesAndLanesRows) {
-  using Real = TypeParam;
-  Real rows[16][6], back[16][6];
-  for (int r = 0; r < 16; ++r)
-    for (int j = 0; j < 6; ++j) rows[r][j] = static_cast<Real>(10 * r + j), back[r][j] = Real(-1);
-  QuadLoader<Real, 16> loader;
-  unrolled<16>([&](auto row) {
-    loader.template load<decltype(row)::value>(
-        reinterpret_cast<const std::byte*>(rows[decltype(row)::value] + 1));
-  });
-  const auto quad = loader.quad();
-  Real lanes[4][16];
-  quad.a.store(lanes[0]), quad.b.store(lanes[1]), quad.c.store(lanes[2]), quad.d.store(lanes[3]);
-  for (int r = 0; r < 16; ++r)
-    for (int j = 0; j < 4; ++j) EXPECT_EQ(lanes[j][r], rows[r][j + 1]);
+/// Sixteen rows of ten numbers, none like another.
+template <class Real>
+struct Rows {
+  Real at[16][10];
+  Rows() {
+    for (int r = 0; r < 16; ++r)
+      for (int j = 0; j < 10; ++j) at[r][j] = static_cast<Real>(10 * r + j + 1);
+  }
+};
 
-  const QuadStorer<Real, 16> storer(quad);
+TYPED_TEST(Packs, EightNumbersOfRowsBecomeLanesAndLanesRows) {
+  using Real = TypeParam;
+  const Rows<Real> rows;
+  OctLoader<Real, 16> loader;
+  unrolled<16>([&](auto row) { loader.template load<decltype(row)::value>(rows.at[row] + 1); });
+  const auto c = loader.columns();
+  for (std::size_t j = 0; j < 8; ++j) {
+    Real lanes[16];
+    c[j].store(lanes);
+    for (int r = 0; r < 16; ++r) EXPECT_EQ(lanes[r], rows.at[r][j + 1]) << "row " << r << ", number " << j;
+  }
+
+  Rows<Real> back;
+  const Quads<Real, 16> first(c[0], c[1], c[2], c[3]), last(c[4], c[5], c[6], c[7]);
+  const OctStorer<Real, 16> storer(-first, last);
+  unrolled<16>([&](auto row) { storer.template store<decltype(row)::value>(back.at[15 - row] + 1); });
+  for (int r = 0; r < 16; ++r) {
+    EXPECT_EQ(back.at[15 - r][0], 10 * (15 - r) + 1) << "before the row";
+    EXPECT_EQ(back.at[15 - r][9], 10 * (15 - r) + 10) << "behind it";
+    for (int j = 1; j < 9; ++j) EXPECT_EQ(back.at[15 - r][j], j < 5 ? -rows.at[r][j] : rows.at[r][j]);
+  }
+}
+
+TEST(Transpose, FourDoublesOfRowsBecomeLanesAndLanesRows) {
+  const Rows<double> rows;
+  QuadLoader<16> loader, difference;
+  unrolled<16>([&](auto row) {
+    loader.load<decltype(row)::value>(rows.at[row] + 1);
+    difference.load_difference<decltype(row)::value>(rows.at[row] + 1, rows.at[(7 * row + 3) % 16] + 2);
+  });
+  const auto c = loader.columns(), d = difference.columns();
+  for (std::size_t j = 0; j < 4; ++j) {
+    double lanes[16], differences[16];
+    c[j].store(lanes), d[j].store(differences);
+    for (int r = 0; r < 16; ++r) {
+      const double other = rows.at[(7 * r + 3) % 16][j + 2];
+      EXPECT_EQ(lanes[r], rows.at[r][j + 1]);
+      EXPECT_EQ(differences[r], j < 3 ? lanes[r] - other : lanes[r] + other);
+    }
+  }
+  Rows<double> back;
+  const Quads<double, 16> storer(c[0], c[1], c[2], c[3]);
   unrolled<16>([&](auto row) {
     constexpr int r = decltype(row)::value;
-    if constexpr (r % 2 == 0) storer.template store<r>(back[r] + 1);
-    if constexpr (r % 2 == 1) storer.template store_three<r>(back[r] + 1);
+    if constexpr (r % 2 == 0) storer.store<r>(back.at[15 - r] + 1);
+    if constexpr (r % 2 == 1) storer.store_three<r>(back.at[15 - r] + 1);
   });
   for (int r = 0; r < 16; ++r) {
-    EXPECT_EQ(back[r][0], -1);
-    for (int j = 1; j < 4; ++j) EXPECT_EQ(back[r][j], rows[r][j]);
-    EXPECT_EQ(back[r][4], r % 2 == 0 ? rows[r][4] : Real(-1)) << "the fourth number of row " << r;
-    EXPECT_EQ(back[r][5], -1);
+    const int to = 15 - r;
+    for (int j = 0; j < 10; ++j) {
+      const bool written = j > 0 && j < (r % 2 == 0 ? 5 : 4);
+      EXPECT_EQ(back.at[to][j], written ? rows.at[r][j] : 10 * to + j + 1) << "row " << r << ", number " << j;
+    }
   }
 }
 
