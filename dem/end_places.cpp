@@ -84,7 +84,7 @@ std::size_t place_groups(EndRing& ring, const Sweep& sweep, const LargeVector<Pa
 std::uint32_t place_of(const EndRing& ring, std::uint32_t slot, std::uint32_t rank) {
   const EndRows& rows = ring.rows[slot / kLanes];
   const std::uint32_t lane = slot % kLanes;
-  if (rank < rows.ranks) return rows.first + rank * static_cast<std::uint32_t>(kLanes) + lane;
+  if (rank < rows.ranks) return rows.first + rank * static_cast<std::uint32_t>(kLanes) + place_of_lane(lane);
   std::uint32_t place = rows.rest() + rank - rows.ranks;
   for (std::uint32_t s = slot - lane; s < slot; ++s)
     place += ring.count[s] - std::min(ring.count[s], rows.ranks);

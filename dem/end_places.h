@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "base/large_pages.h"
+#include "dem/simd/transpose.h"
 #include "dem/sweep.h"
 
 namespace interstice::dem {
@@ -20,6 +21,17 @@ namespace interstice::dem {
 struct PairEnds {
   std::uint32_t a, b;
 };
+
+/// Of the places of a rank, that of a lane, and the reverse: an order in which sums of ends become lanes with
+/// the fewest instructions (simd/transpose.h).
+constexpr std::uint32_t place_of_lane(std::uint32_t lane) {
+  return static_cast<std::uint32_t>(simd::place_of_row(static_cast<int>(lane)));
+}
+constexpr int lane_at(int place) {
+  int lane = 0;
+  while (simd::place_of_row(lane) != place) ++lane;
+  return lane;
+}
 
 /// The places of a group of grains: `ranks` times kLanes from `first` on, and behind these, grain after
 /// grain, the ends beyond, so many in all. Every grain has an end of the first `full` ranks.

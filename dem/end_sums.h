@@ -33,6 +33,8 @@ void add_rest(const Real* ends, const EndRows& rows, const std::uint32_t* count,
 template <class Real>
 class RowSums {
  public:
+  /// How many ends each grain has.
+  explicit RowSums(const std::uint32_t* count) { simd::from_counts<Real, kLanes>(count).store(count_); }
   /// One end of every grain.
   void add(const Real* ends) {
     simd::unrolled<kPacks>([&](auto index) {
@@ -40,23 +42,18 @@ class RowSums {
       sums_[j] += Rows::load(ends + j * kReals);
     });
   }
-  /// One end of the grains whose bits are set.
-  void add(const Real* ends, std::uint32_t which) {
+  /// End number `rank` of the grains that have it.
+  void add(const Real* ends, std::uint32_t rank) {
     simd::unrolled<kPacks>([&](auto index) {
       constexpr int j = decltype(index)::value;
-      const auto own = Rows::M::from_bits(reals_of(which >> (j * kEnds)));
+      const auto own = count_of<j>() > Rows(rank);
       sums_[j] = select(own, sums_[j] + Rows::load(ends + j * kReals), sums_[j]);
     });
   }
   EndSums<simd::Pack<Real, kLanes>> lanes() const {
-    alignas(64) Real rows[kLanes * kEndReals];
-    for (int j = 0; j < kPacks; ++j) sums_[j].store(rows + j * kReals);
-    simd::OctLoader<Real, kLanes> loader;
-    simd::unrolled<kLanes>([&](auto lane) {
-      constexpr int i = decltype(lane)::value;
-      loader.template load<i>(rows + kEndReals * i);
-    });
-    const auto c = loader.columns();
+    simd::OctLoader<Real, kLanes> rows;
+    rows.take(sums_);
+    const auto c = rows.columns();
     return {{c[0], c[1], c[2]}, {c[4], c[5], c[6]}};
   }
 
@@ -64,12 +61,17 @@ class RowSums {
   static constexpr int kReals = 64 / sizeof(Real), kEnds = kReals / static_cast<int>(kEndReals),
                        kPacks = static_cast<int>(kLanes) / kEnds;
   using Rows = simd::Pack<Real, kReals>;
-  /// A bit an end to a bit a number.
-  static std::uint32_t reals_of(std::uint32_t ends) {
-    if constexpr (kEnds == 1) return (ends & 1) * 0xff;
-    return (ends & 1) * 0xff + (ends >> 1 & 1) * 0xff00;
+  /// By number of pack j, how many ends its grain has.
+  template <int j>
+  Rows count_of() const {
+    if constexpr (kEnds == 1) {
+      return Rows(count_[lane_at(j)]);
+    } else {
+      return select(Rows::M::from_bits(0xff), Rows(count_[lane_at(2 * j)]), Rows(count_[lane_at(2 * j + 1)]));
+    }
   }
 
+  alignas(64) Real count_[kLanes];
   Rows sums_[kPacks];
 };
 
@@ -77,13 +79,11 @@ class RowSums {
 template <class Real>
 EndSums<simd::Pack<Real, kLanes>> end_sums(const Real* ends, const EndRows& rows,
                                            const std::uint32_t* count) {
-  RowSums<Real> sums;
+  RowSums<Real> sums(count);
   const Real* end = ends + kEndReals * rows.first;
   constexpr std::size_t rank = kEndReals * kLanes;
   for (std::uint32_t k = 0; k < rows.full; ++k, end += rank) sums.add(end);
-  const auto has = simd::from_counts<float, kLanes>(count);
-  for (std::uint32_t k = rows.full; k < rows.ranks; ++k, end += rank)
-    sums.add(end, (has > simd::Pack<float, kLanes>(k)).bits());
+  for (std::uint32_t k = rows.full; k < rows.ranks; ++k, end += rank) sums.add(end, k);
   auto all = sums.lanes();
   if (rows.beyond > 0) add_rest(ends, rows, count, all);
   return all;

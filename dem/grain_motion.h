@@ -25,7 +25,7 @@ inline void store(const Vec3<Each>& v, double* x, double* y, double* z) {
 
 /// Velocities half a step on.
 inline Vec3<Each> half_step(const Vec3<Each>& velocity, const Vec3<Each>& acceleration, double half_dt) {
-  return velocity + Each(half_dt) * acceleration;
+  return multiply_add(Each(half_dt), acceleration, velocity);
 }
 
 /// Present velocities and accelerations of a group.

@@ -21,6 +21,13 @@ constexpr double kStepLimit = 0.25;
 
 }  // namespace
 
+/// Has an object brought near, which is needed soon.
+template <class T>
+void ask_for(const T* object) {
+  for (std::size_t byte = 0; byte < sizeof(T); byte += 64)
+    __builtin_prefetch(reinterpret_cast<const char*>(object) + byte, 1, 2);
+}
+
 /// A grain outside the domain: put back through a periodic face; true when it left through an open one.
 template <class Real>
 bool Simulation::wrap_or_leave(PairRow<Real>& row, GrainLabel& label) const {
@@ -250,8 +257,9 @@ INTERSTICE_FLATTEN Simulation::PassReport Simulation::move_rows(PairRow<Real>* r
     Vec3<Each> force = simd::converted<double>(sums.force), torque = simd::converted<double>(sums.torque);
     add_walls(g, force, torque);
     GroupMotion& m = grains_.motions()[g];
+    ask_for(&m + 1);
     GroupState now;
-    now.acceleration = gravity + Each::load(m.inverse_mass) * force;
+    now.acceleration = multiply_add(Each::load(m.inverse_mass), force, gravity);
     now.angular = Each::load(m.inverse_inertia) * torque;
     now.velocity = half_step(load(m.vx, m.vy, m.vz), now.acceleration, 0.5 * dt_);
     now.spin = half_step(load(m.wx, m.wy, m.wz), now.angular, 0.5 * dt_);

@@ -182,6 +182,17 @@ void turn_blocks(V* v) {
   }
 }
 
+/// Piece i of 32 bytes of a pack of 64 bytes.
+template <int i, class T, int N>
+__m256d piece(const Pack<T, N>& p) {
+  static_assert(N * sizeof(T) == 64);
+  if constexpr (kNativeBytes == 64) {
+    return row_of<i>(p.lanes);
+  } else {
+    return reinterpret_cast<__m256d>(i == 0 ? p.lo.lanes : p.hi.lanes);
+  }
+}
+
 /// 32 bytes of each of N rows, in registers.
 template <class T, int N>
 struct RowSet {
@@ -223,6 +234,18 @@ struct RowSet {
 
 template <class P>
 using Octs = std::array<P, 8>;
+
+/// The order of rows of eight floats in memory in which registers filled one after the other hold them as
+/// they are needed: row r at place kPlaces(r).
+constexpr int place_of_row(int row) {
+#if defined(__AVX__)
+  using Place = detail::RowPlace<float>;
+  return kNativeLanes<float> * Place::set(row) + Place::rows_per_register * Place::index(row) +
+         Place::half(row);
+#else
+  return row;
+#endif
+}
 
 /// Collects four doubles of each of N rows.
 template <int N>
@@ -277,6 +300,18 @@ class OctLoader {
       rows_[0].template set<row>(_mm256_castps_pd(_mm256_loadu_ps(p)));
     }
   }
+  /// Row by row from registers, in the order of place_of_row.
+  void take(const Pack<T, 64 / sizeof(T)>* packs) {
+    unrolled<N>([&](auto index) {
+      constexpr int row = decltype(index)::value, place = place_of_row(row);
+      if constexpr (sizeof(T) == 8) {
+        rows_[0].template set<row>(detail::piece<0>(packs[place]));
+        rows_[1].template set<row>(detail::piece<1>(packs[place]));
+      } else {
+        rows_[0].template set<row>(detail::piece<place % 2>(packs[place / 2]));
+      }
+    });
+  }
   Octs<P> columns() const {
     if constexpr (sizeof(T) == 8) {
       const auto lo = rows_[0].columns(), hi = rows_[1].columns();
@@ -292,6 +327,11 @@ class OctLoader {
   template <int row>
   void load(const T* p) {
     for (int j = 0; j < 8; ++j) columns_[j][row] = p[j];
+  }
+  void take(const Pack<T, 64 / sizeof(T)>* packs) {
+    T rows[N * 8];
+    for (int i = 0; i < N * static_cast<int>(sizeof(T)) / 8; ++i) packs[i].store(rows + i * (64 / sizeof(T)));
+    unrolled<N>([&](auto row) { load<decltype(row)::value>(rows + 8 * decltype(row)::value); });
   }
   Octs<P> columns() const {
     Octs<P> packs;
