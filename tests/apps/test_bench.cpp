@@ -1,6 +1,7 @@
 // `interstice bench`: its beds must be at rest, or what is timed on them means nothing. Equal frictional
 // spheres that settle under their weight touch four to six others on average (4 where friction is infinite, 6
-// without it: Silbert et al., Phys. Rev. E 65, 031304, 2002), and the floor carries them all.
+// without it: Silbert et al., Phys. Rev. E 65, 031304, 2002), the twentieth of them that rattle left out, and
+// the floor carries them all.
 #include <nlohmann/json.hpp>
 
 #include "command_test.h"
@@ -20,10 +21,10 @@ class Bench : public CommandTest {
 };
 
 void expect_at_rest(const Json& state) {
-  EXPECT_GT(state["coordination"], 4.0);
+  EXPECT_GT(state["coordination"], 4.0 * (1 - 0.05));
   EXPECT_LT(state["coordination"], 5.0);
   EXPECT_NEAR(state["floor_force_over_weight"], 1, 0.15);  // what is left of the bed's swinging
-  EXPECT_LT(state["kinetic_energy_over_mgd"], 1e-4);  // a tenth of what scenes call settled
+  EXPECT_LT(state["kinetic_energy_over_mgd"], 1e-4);       // a tenth of what scenes call settled
 }
 
 TEST_F(Bench, MadeBedsAreAtRestWrittenAndReadBackToo) {
