@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iterator>
 #include <utility>
@@ -114,12 +115,14 @@ Simulation make_gas(const Gas& gas, double contact_time, unsigned seed) {
   return sim;
 }
 
-/// A cooling gas at some times: its temperature over that by Haff's law in time, and in collisions.
+constexpr std::array kTimes{0.5, 1., 1.5};  // in Haff times: to 1/6 of the first temperature
+
+/// A cooling gas at these times: its temperature over that by Haff's law in time, and in collisions.
 struct Cooling {
-  std::vector<double> by_time, by_collisions;
+  std::array<double, kTimes.size()> by_time{}, by_collisions{};
 };
 
-Cooling cool(const Gas& gas, const std::vector<double>& times, unsigned seed) {
+Cooling cool(const Gas& gas, unsigned seed) {
   const double rate = collision_rate(gas), loss = 1 - gas.restitution * gas.restitution;
   const double haff_time = 6 / (loss * rate);
   Simulation sim = make_gas(gas, 0.01 / rate, seed);
@@ -127,8 +130,8 @@ Cooling cool(const Gas& gas, const std::vector<double>& times, unsigned seed) {
   std::int64_t collisions = 0;
   Pairs before;
   Cooling seen;
-  for (const double until : times) {
-    while (sim.time() < until * haff_time) {
+  for (std::size_t i = 0; i < kTimes.size(); ++i) {
+    while (sim.time() < kTimes[i] * haff_time) {
       sim.advance(5);  // a fifth of a contact: none is missed
       Pairs now = touching_pairs(sim), begun;
       std::set_difference(now.begin(), now.end(), before.begin(), before.end(), std::back_inserter(begun));
@@ -137,41 +140,39 @@ Cooling cool(const Gas& gas, const std::vector<double>& times, unsigned seed) {
     }
     const double cooled = temperature(sim) / first, t = sim.time() / haff_time;
     const double per_grain = 2 * static_cast<double>(collisions) / static_cast<double>(gas.count);
-    seen.by_time.push_back(cooled * (1 + t) * (1 + t));
-    seen.by_collisions.push_back(cooled / std::exp(-loss * per_grain / 3));
+    seen.by_time[i] = cooled * (1 + t) * (1 + t);
+    seen.by_collisions[i] = cooled / std::exp(-loss * per_grain / 3);
   }
   return seen;
 }
 
-/// Cools for up to 1.5 times Haff's time, to 1/6 of the first temperature: well before clusters form in so
-/// small a box. (Not with the reference back end, whose search for neighbours is for small scenes.)
-void check_cooling(const Gas& gas, const std::string& name, const std::vector<double>& times) {
+/// Well before clusters form in so small a box. (Not with the reference back end, whose search for neighbours
+/// is for small scenes.)
+void check_cooling(const Gas& gas, const std::string& name) {
   const Reference haff{fmt::format("Haff's law: {}", name), "Haff 1983; Brilliantov & Pöschel 2004, ch. 5"};
-  std::vector<double> by_time(times.size(), 0), by_collisions(times.size(), 0);
+  Cooling mean;
   for (unsigned seed = 0; seed < gas.seeds; ++seed) {
-    const Cooling seen = cool(gas, times, 11 + seed);
-    for (std::size_t i = 0; i < times.size(); ++i) {
-      by_time[i] += seen.by_time[i] / gas.seeds;
-      by_collisions[i] += seen.by_collisions[i] / gas.seeds;
+    const Cooling seen = cool(gas, 11 + seed);
+    for (std::size_t i = 0; i < kTimes.size(); ++i) {
+      mean.by_time[i] += seen.by_time[i] / gas.seeds;
+      mean.by_collisions[i] += seen.by_collisions[i] / gas.seeds;
     }
   }
   // 3 %: contacts that last (1 %), the velocities' departure from a Maxwellian (0.8 %) and chance, 1.3 % of a
   // gas of 1000 grains.
-  for (std::size_t i = 0; i < times.size(); ++i) {
-    expect_ratio(haff, fmt::format("T over Haff's at {} Haff times", times[i]), by_time[i], 1, 0.03);
-    expect_ratio(haff, fmt::format("T over Haff's after as many collisions, {} Haff times", times[i]),
-                 by_collisions[i], 1, 0.03);
+  for (std::size_t i = 0; i < kTimes.size(); ++i) {
+    expect_ratio(haff, fmt::format("T over Haff's at {} Haff times", kTimes[i]), mean.by_time[i], 1, 0.03);
+    expect_ratio(haff, fmt::format("T over Haff's after as many collisions, {} Haff times", kTimes[i]),
+                 mean.by_collisions[i], 1, 0.03);
   }
 }
 
 TEST(GranularGas, OfHertzSpheresCoolsByHaffsLaw) {
-  check_cooling({NormalLaw::hertz, 0.9, 0.1, Precision::real64, 2000, 1}, "hertz, e 0.9, φ 0.1",
-                {0.5, 1, 1.5});
+  check_cooling({NormalLaw::hertz, 0.9, 0.1, Precision::real64, 2000, 1}, "hertz, e 0.9, φ 0.1");
 }
 
 TEST(GranularGas, OfHookeSpheresInMixedPrecisionCoolsByHaffsLaw) {
-  check_cooling({NormalLaw::hooke, 0.9, 0.05, Precision::mixed, 1000, 4}, "hooke, e 0.9, φ 0.05, mixed",
-                {0.5, 1, 1.5});
+  check_cooling({NormalLaw::hooke, 0.9, 0.05, Precision::mixed, 1000, 4}, "hooke, e 0.9, φ 0.05, mixed");
 }
 
 }  // namespace
