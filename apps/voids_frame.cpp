@@ -171,8 +171,8 @@ FramePlan plan_frame(const io::ParticleFrame& frame, const VoidsOptions& options
 std::string resolution_warning(const std::string& where, double resolution, double voxel) {
   if (!(resolution > 1e-3 * voxel)) return "";
   return fmt::format(
-      "{}: positions are written to {} only, more than a thousandth of the voxel ({}); grains are displaced "
-      "by up to half of that; write more digits (dump_modify ID format float %.12g, or doubles)",
+      "{}: positions are written to {} only, more than a thousandth of the voxel ({}); grains may be "
+      "displaced by up to half of that; write more digits (dump_modify ID format float %.12g, or doubles)",
       where, scene::format_length(resolution), scene::format_length(voxel));
 }
 

@@ -206,8 +206,12 @@ VoidsOptions read_voids_options(const VoidsWords& words) {
   });
   options.scales = words.scales;
   if (words.compute.precision == "mixed") options.precision = voxel::Precision::mixed;
-  attempt(!words.average.empty(),
-          [&] { options.average = positive(words.average, Dimension::length, "--average"); });
+  attempt(!words.average.empty(), [&] {
+    options.average = positive(words.average, Dimension::length, "--average");
+    if (options.average < options.voxel)
+      throw InputError("--average: " + words.average + " is less than a voxel; at least " + words.voxel +
+                       "; average over several voxels");
+  });
   attempt(!words.average_window.empty(), [&] { read_window(words.average_window, options); });
   for (const auto& slice : words.slices) {
     attempt(true, [&] {

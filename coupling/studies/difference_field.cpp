@@ -4,10 +4,12 @@
 #include <openvdb/openvdb.h>
 
 #include <cmath>
+#include <sstream>
 
 #include "base/error.h"
 #include "coupling/io/vdb_archive.h"
 #include "coupling/io/vti_file.h"
+#include "voxel/metre_grid.h"
 
 namespace interstice::studies {
 namespace {
@@ -34,12 +36,17 @@ struct File {
 /// The number of cells comes from the box in the metadata: where the powder ends says nothing about the
 /// lattice.
 CoordBBox cells_of(const Grid& grid, double voxel) {
-  const auto lo = grid.getMetadata<openvdb::Vec3DMetadata>("box_lo_m");
-  const auto hi = grid.getMetadata<openvdb::Vec3DMetadata>("box_hi_m");
-  if (!lo || !hi) return grid.evalActiveVoxelBoundingBox();
-  const openvdb::Vec3d n = (hi->value() - lo->value()) / voxel;
-  return {Coord(0), Coord(static_cast<int>(std::lround(n.x())) - 1, static_cast<int>(std::lround(n.y())) - 1,
-                          static_cast<int>(std::lround(n.z())) - 1)};
+  const auto box = grid.getMetadata<openvdb::StringMetadata>("box");  // x0,x1,y0,y1,z0,z1 [m]
+  if (!box) return grid.evalActiveVoxelBoundingBox();
+  std::istringstream words(box->value());
+  Coord last;
+  for (int axis = 0; axis < 3; ++axis) {
+    double lo = 0, hi = 0;
+    char comma = 0;
+    words >> lo >> comma >> hi >> comma;
+    last[axis] = static_cast<int>(std::lround((hi - lo) / voxel)) - 1;
+  }
+  return {Coord(0), last};
 }
 
 File open(const std::filesystem::path& path) {
@@ -92,7 +99,7 @@ void for_active_cells(const Grid& grid, const CoordBBox& box, const Visit& visit
 
 /// B - A on `common` (cells of A), counted from its first cell.
 Grid::Ptr subtract(const Grid& a, const Grid& b, const Coord& shift, const CoordBBox& common) {
-  auto result = Grid::create(0.0F);
+  const Grid::Ptr result = std::make_shared<voxel::MetreGrid>(0.0F);
   const auto from = a.getConstAccessor(), with = b.getConstAccessor();
   auto into = result->getAccessor();
   const auto set = [&](const Coord& cell) {
@@ -142,9 +149,7 @@ FieldDifference field_difference(const std::filesystem::path& a_path, const std:
     const auto from = a.grid(name), with = b.grid(name);
     if (!from || !with) return nullptr;
     auto grid = subtract(*from, *with, shift, common);
-    grid->setTransform(openvdb::math::Transform::createLinearTransform(a.voxel));
-    const Vec3d first = field.lattice.cell_center(0, 0, 0);
-    grid->transform().postTranslate({first.x, first.y, first.z});
+    grid->setTransform(voxel::cell_transform(field.lattice));
     grid->setName(std::string(name) + "_difference");
     return grid;
   };

@@ -202,6 +202,48 @@ TEST_F(Voids, UnionTakesSharedPlacesOffOnce) {
   EXPECT_EQ(s["negative_voxels"], 0);
 }
 
+// One ball less, counted on the same grid: the difference is that ball, wherever the grid's cells are.
+TEST_F(Voids, TwoFilesAreComparedOnOneGrid) {
+  std::ofstream(at("a.csv")) << "x,y,z,radius\n5e-5,5e-5,5e-5,2e-5\n";
+  std::ofstream(at("b.csv")) << "x,y,z,radius\n5e-5,5e-5,5e-5,2e-5\n2.1e-4,5e-5,5.3e-5,3e-5\n";
+  std::ofstream(at("c.csv")) << "x,y,z,radius\n";
+  const auto voids = [&](const std::string& inputs, const std::string& out, const std::string& box) {
+    const auto outcome = call(inputs + " -o " + at(out) + " --voxel 10um --box " + box +
+                              " --slice x=0.21mm --average 30um --layers 20um,80um,3,1 --no-figures");
+    ASSERT_EQ(outcome.status, 0) << outcome.err;
+  };
+  const auto compare = [&](const std::string& a, const std::string& b) {
+    return interstice("compare " + at(a) + " " + at(b) + " -o " + at("ab") + " --overwrite --json");
+  };
+  const std::string box = "0um,300um,0um,100um,0um,100um";
+  voids(at("a.csv"), "a", box);
+  voids(at("b.csv"), "b", box);
+  const auto both = compare("a", "b");
+  ASSERT_EQ(both.status, 0) << both.err;
+  const auto difference = Json::parse(both.out)["difference_fields"][0];
+  EXPECT_EQ(difference["field"], "fields");
+  const double ball = 4 * M_PI / 3 * 27e-15, cells = 3000e-15;
+  EXPECT_NEAR(difference["mean"].get<double>(), -ball / cells, 1e-6 * ball / cells);  // floats
+  EXPECT_EQ(difference["largest"], -1);
+  for (const char* file : {"fields/fields_difference.vdb", "fields/fields_difference.vti", "comparison.csv",
+                           "figures/fields_end_slices.png", "figures/fields_end_slices_difference.png"})
+    EXPECT_TRUE(fs::exists(at("ab") + "/" + file)) << file;
+  EXPECT_NE(slurp(at("ab") + "/comparison.csv").find("end/fields/solid_fraction_gap,"), std::string::npos);
+  EXPECT_EQ(slurp(at("ab") + "/report.md").find("nan"), std::string::npos);
+
+  voids(at("b.csv"), "shifted", "5um,300um,0um,100um,0um,100um");
+  EXPECT_NE(compare("a", "shifted").out.find("shifted by a fraction of a cell along x"), std::string::npos);
+  voids(at("a.csv") + " " + at("c.csv"), "two", box);
+  const auto many = compare("two", "b");
+  EXPECT_EQ(many.status, 2);
+  EXPECT_NE(many.err.find("more frames than one"), std::string::npos) << many.err;
+  EXPECT_EQ(compare("two/a", "b").status, 0);
+  std::ofstream(at("b/b/summary.json")) << "{";
+  const auto broken = compare("a", "b");
+  EXPECT_EQ(broken.status, 2);
+  EXPECT_NE(broken.err.find("summary.json: no JSON"), std::string::npos) << broken.err;
+}
+
 TEST_F(Voids, ScalesAreATableAndASentence) {
   const Outcome outcome = call(sample("two-frames.dump") + to_out() + "--voxel 20um --scales --json");
   ASSERT_EQ(outcome.status, 0) << outcome.err;
@@ -234,7 +276,8 @@ facet normal 0 -1 0 outer loop vertex 0 0 0 vertex .2 0 0 vertex 0 0 .2 endloop 
 facet normal -1 0 0 outer loop vertex 0 0 0 vertex 0 0 .2 vertex 0 .2 0 endloop endfacet
 facet normal 1 1 1 outer loop vertex .2 0 0 vertex 0 .2 0 vertex 0 0 .2 endloop endfacet
 endsolid)";
-  std::ofstream(folder_ / "grain.csv") << "x [mm],y [mm],z [mm],radius [mm]\n0.500000,0.500000,0.500000,0.05\n";
+  std::ofstream(folder_ / "grain.csv")
+      << "x [mm],y [mm],z [mm],radius [mm]\n0.500000,0.500000,0.500000,0.05\n";
   const std::string grain =
       (folder_ / "grain.csv").string() + to_out() +
       "--voxel 30um --box 0mm,0.9mm,0mm,0.9mm,0mm,0.9mm --no-figures --json --overwrite ";
@@ -333,6 +376,7 @@ TEST_F(Voids, WrongUseIsRefusedBeforeAnythingIsWritten) {
   expect_refused(sample("two-frames.dump"), "--voxel");
   expect_refused(sample("two-frames.dump") + " --voxel 20", "--voxel");
   expect_refused(sample("two-frames.dump") + " --voxel 0um", "not positive");
+  expect_refused(dump + "--average 19um", "--average: 19um is less than a voxel; at least 20um");
   expect_refused(dump + "--box 0mm,1mm", "--box");
   expect_refused(dump + "--box 1mm,0mm,0mm,1mm,0mm,1mm", "--box");
   expect_refused(dump + "--slice q=1mm", "--slice");

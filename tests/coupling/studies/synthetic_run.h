@@ -15,6 +15,7 @@
 #include <string>
 
 #include "tests/coupling/figures/temporary_folder.h"
+#include "voxel/metre_grid.h"
 
 namespace interstice::fixtures {
 
@@ -47,18 +48,21 @@ inline void write_vdb(const std::filesystem::path& path, const SyntheticRun& run
   openvdb::GridPtrVec grids;
   for (const char* name : {"solid_fraction", "void_fraction"}) {
     const bool is_solid = name[0] == 's';
-    auto grid = openvdb::FloatGrid::create(is_solid ? 0.0F : 1.0F);
+    const openvdb::FloatGrid::Ptr grid = std::make_shared<voxel::MetreGrid>(is_solid ? 0.0F : 1.0F);
     for (int i = 0; i < 4; ++i) {
       for (int j = 0; j < 3; ++j) {
         grid->tree().setValue({i, j, 0}, static_cast<float>(is_solid ? solid : 1 - solid));
       }
     }
     grid->setName(name);
-    grid->setTransform(openvdb::math::Transform::createLinearTransform(run.voxel));
     const double x = run.shift * run.voxel;
-    grid->transform().postTranslate({x + run.voxel / 2, run.voxel / 2, run.voxel / 2});
-    grid->insertMeta("box_lo_m", openvdb::Vec3DMetadata({x, 0, 0}));
-    grid->insertMeta("box_hi_m", openvdb::Vec3DMetadata({x + 4 * run.voxel, 3 * run.voxel, 2 * run.voxel}));
+    voxel::Lattice lattice;
+    lattice.lo = {x, 0, 0};
+    lattice.h = {run.voxel, run.voxel, run.voxel};
+    lattice.n = {4, 3, 2};
+    grid->setTransform(voxel::cell_transform(lattice));
+    grid->insertMeta("box", openvdb::StringMetadata(fmt::format("{},{},0,{},0,{}", x, x + 4 * run.voxel,
+                                                                3 * run.voxel, 2 * run.voxel)));
     grids.push_back(grid);
   }
   openvdb::io::File file(path.string());

@@ -168,6 +168,22 @@ TEST_F(CompareRuns, ShiftedLatticesAreComparedWhereBothAre) {
   EXPECT_EQ(compare({}, b).differences.at(0).difference.obstacle, "their boxes do not overlap");
 }
 
+// OpenVDB refuses to make scalings as small as this anew.
+TEST_F(CompareRuns, VoxelsOfAFewMicrometresHaveADifferenceToo) {
+  SyntheticRun a, b;
+  a.voxel = b.voxel = 4e-6;
+  b.solid = 0.75;
+  const auto comparison = compare(a, b);
+  const auto& d = comparison.differences.at(0).difference;
+  EXPECT_EQ(d.obstacle, "");
+  EXPECT_NEAR(d.mean, -0.125, 1e-7);
+  studies::write_difference(folder / "d", d, "b minus a");
+  openvdb::io::File file((folder / "d.vdb").string());
+  file.open();
+  const auto grid = file.readGrid("void_fraction_difference");
+  EXPECT_NEAR(grid->indexToWorld(openvdb::Coord(1, 0, 0)).x(), 6e-6, 1e-12);
+}
+
 TEST_F(CompareRuns, CellsOfDifferentSizeHaveNoDifferenceAndTheReportSaysWhy) {
   SyntheticRun b;
   b.voxel = 25e-6;
