@@ -19,14 +19,13 @@ constexpr std::size_t kGroupsAtOnce = 4;
 /// How far a grain may go in a step, in squared radii.
 constexpr double kStepLimit = 0.25;
 
-}  // namespace
-
-/// Has an object brought near, which is needed soon.
-template <class T>
-void ask_for(const T* object) {
-  for (std::size_t byte = 0; byte < sizeof(T); byte += 64)
-    __builtin_prefetch(reinterpret_cast<const char*>(object) + byte, 1, 2);
+/// Has memory brought near that is needed soon; returns where the next request goes on.
+const char* ask_for(const char* line, const char* end) {
+  for (; line < end; line += 64) __builtin_prefetch(line, 1, 2);
+  return line;
 }
+
+}  // namespace
 
 /// A grain outside the domain: put back through a periodic face; true when it left through an open one.
 template <class Real>
@@ -204,7 +203,7 @@ void Simulation::evaluate_pairs(const StepView& view, std::size_t begin, std::si
     if (kSleep && spares_pairs(group, until)) continue;
     const auto* const share = line + (last - line) * static_cast<std::ptrdiff_t>(until - group) /
                                          static_cast<std::ptrdiff_t>(end - group);
-    for (; line < share; line += 64) __builtin_prefetch(line, 1, 2);
+    line = ask_for(line, share);
     if constexpr (kSleep) {
       evaluate_needed<Real>(view, group, until);
     } else {
@@ -257,7 +256,8 @@ INTERSTICE_FLATTEN Simulation::PassReport Simulation::move_rows(PairRow<Real>* r
     Vec3<Each> force = simd::converted<double>(sums.force), torque = simd::converted<double>(sums.torque);
     add_walls(g, force, torque);
     GroupMotion& m = grains_.motions()[g];
-    ask_for(&m + 1);
+    const auto* const next = reinterpret_cast<const char*>(&m + 1);
+    ask_for(next, next + sizeof(GroupMotion));
     GroupState now;
     now.acceleration = multiply_add(Each::load(m.inverse_mass), force, gravity);
     now.angular = Each::load(m.inverse_inertia) * torque;

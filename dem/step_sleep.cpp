@@ -92,17 +92,16 @@ void Simulation::fall_asleep() {
 template <class Real>
 void Simulation::evaluate_frozen(const StepView& view, std::size_t group) {
   using P = simd::Pack<Real, kLanes>;
-  constexpr std::size_t reals = kSpringReals * kLanes;
   Real* const springs[2] = {static_cast<Real*>(view.pairs.sliding), static_cast<Real*>(view.pairs.rolling)};
   P before[2][kSpringReals];
   for (std::size_t i = 0; i < 2; ++i)
     for (std::size_t n = 0; springs[i] && n < kSpringReals; ++n)
-      before[i][n] = P::load(springs[i] + group * reals + n * kLanes);
+      before[i][n] = P::load(springs[i] + spring_index(group * kLanes, n));
   kernels_.pairs(model_.laws, view, group, group + 1);
   const auto keep = P::M::from_bits(sleepers_.frozen(group) & view.pairs.bits[group].touching);
   for (std::size_t i = 0; i < 2; ++i) {
     for (std::size_t n = 0; springs[i] && n < kSpringReals; ++n) {
-      Real* const at = springs[i] + group * reals + n * kLanes;
+      Real* const at = springs[i] + spring_index(group * kLanes, n);
       select(keep, before[i][n], P::load(at)).store(at);
     }
   }

@@ -36,7 +36,8 @@ ContactStates contact_states(const L& laws, const GroupBits& bits, const P& over
   return s;
 }
 
-/// Are all contacts of a group apart, and were before? Then it has no force and keeps nothing.
+/// Are all contacts of a group apart, and were before? Then it has no force and keeps nothing. `overlap`, or
+/// any number of its sign.
 template <class L, class P>
 bool stay_apart(const L& laws, const GroupBits& bits, const P& overlap) {
   return laws.cohesion != CohesionLaw::van_der_waals && bits.touching == 0 &&

@@ -236,7 +236,7 @@ template <class P>
 using Octs = std::array<P, 8>;
 
 /// The order of rows of eight floats in memory in which registers filled one after the other hold them as
-/// they are needed: row r at place kPlaces(r).
+/// they are needed: the place of row `row`.
 constexpr int place_of_row(int row) {
 #if defined(__AVX__)
   using Place = detail::RowPlace<float>;

@@ -3,11 +3,13 @@
 #include <tbb/global_control.h>
 #include <tbb/task_arena.h>
 
+#include "tests/dem/same_bits.h"
 #include "tests/dem/scenes.h"
 
 namespace interstice::dem {
 namespace {
 
+using testing::expect_same_bits;
 using testing::falling_cloud;
 
 constexpr std::size_t kGrains = 900;  // several blocks of rows and of pairs
@@ -23,17 +25,6 @@ GrainColumns run(const SimulationOptions& options, int threads) {
     EXPECT_GT(sim.rebuilds(), 3);
     return c;
   });
-}
-
-void expect_same_bits(const GrainColumns& a, const GrainColumns& b) {
-  EXPECT_EQ(a.id, b.id);
-  EXPECT_EQ(a.x, b.x);
-  EXPECT_EQ(a.y, b.y);
-  EXPECT_EQ(a.z, b.z);
-  EXPECT_EQ(a.vx, b.vx);
-  EXPECT_EQ(a.vz, b.vz);
-  EXPECT_EQ(a.wx, b.wx);
-  EXPECT_EQ(a.wz, b.wz);
 }
 
 TEST(SameBits, ForOneTwoAndFourThreads) {

@@ -7,11 +7,13 @@
 #include "base/error.h"
 #include "dem/energy.h"
 #include "dem/statistics.h"
+#include "tests/dem/same_bits.h"
 #include "tests/dem/scenes.h"
 
 namespace interstice::dem {
 namespace {
 
+using testing::expect_same_bits;
 using testing::falling_cloud;
 
 constexpr double kTolerance = 0.05, kStep = 1e-6;  // -, [s]
@@ -102,14 +104,6 @@ void drop_grain(Simulation& sim) {
   g.position = {0.5 * kSide, 0.4 * kSide, top(columns(sim)) + 45e-6};
   g.velocity = {0, 0, -0.005};
   sim.add_grains({&g, 1});
-}
-
-void expect_same_bits(const GrainColumns& a, const GrainColumns& b) {
-  EXPECT_EQ(a.id, b.id);
-  EXPECT_EQ(a.x, b.x);
-  EXPECT_EQ(a.z, b.z);
-  EXPECT_EQ(a.vy, b.vy);
-  EXPECT_EQ(a.wx, b.wx);
 }
 
 /// A grain falls on the bed: many wake, and some fall asleep again.
