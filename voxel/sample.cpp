@@ -83,6 +83,13 @@ std::vector<double> outside_walls(const Samples& samples, std::vector<double> va
   return values;
 }
 
+std::vector<double> clear_of_walls(const Samples& samples) {
+  std::vector<double> values = samples.void_fraction;
+  for (std::size_t i = 0; i < samples.available_fraction.size() && i < values.size(); ++i)
+    if (samples.available_fraction[i] < 1) values[i] = std::numeric_limits<double>::quiet_NaN();
+  return values;
+}
+
 Samples sample_line(const Field& field, int axis, const Vec3d& at) {
   Samples samples;
   samples.axes = {axis, axis};

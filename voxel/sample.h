@@ -37,5 +37,7 @@ Samples sample_line(const Field& field, int axis, const Vec3d& at);
 
 /// `values` of the samples with NaN where walls leave nothing of the voxel: there is neither powder nor void.
 std::vector<double> outside_walls(const Samples& samples, std::vector<double> values);
+/// The void fraction with NaN where walls take any part of the voxel: what is missing there is no powder.
+std::vector<double> clear_of_walls(const Samples& samples);
 
 }  // namespace interstice::voxel

@@ -26,11 +26,10 @@ double relative_error(double value, double truth) {
 
 Json box_of(const Box& b) { return Json::array({b.lo.x, b.hi.x, b.lo.y, b.hi.y, b.lo.z, b.hi.z}); }
 
-// Void fraction along a line, outside walls: the numbers one compares runs by.
+// Void fraction along a line, clear of walls: the numbers one compares runs by.
 Json line_summary(const std::string& name, const voxel::Samples& line) {
   Json json{{"name", name}};
-  const auto add = [&](const char* key, const std::vector<double>& values) {
-    std::vector<double> v = voxel::outside_walls(line, values);
+  const auto add = [&](const char* key, std::vector<double> v) {
     std::erase_if(v, [](double value) { return std::isnan(value); });
     if (v.empty()) return;
     json[std::string(key) + "_min"] = *std::min_element(v.begin(), v.end());
@@ -38,8 +37,8 @@ Json line_summary(const std::string& name, const voxel::Samples& line) {
     json[std::string(key) + "_mean"] =
         std::accumulate(v.begin(), v.end(), 0.0) / static_cast<double>(v.size());
   };
-  add("void_fraction", line.void_fraction);
-  add("void_fraction_averaged", line.void_fraction_averaged);
+  add("void_fraction", voxel::clear_of_walls(line));
+  add("void_fraction_averaged", voxel::outside_walls(line, line.void_fraction_averaged));
   return json;
 }
 

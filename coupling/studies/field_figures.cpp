@@ -134,21 +134,11 @@ void add_slices(std::vector<NamedFigure>& all, const Moment& m) {
        of_averages ? "Difference of averaged void fraction" : "Difference of void fraction");
 }
 
-/// A voxel that walls fill has neither solid nor void: no curve runs through it (NaN breaks a line), and none
-/// begins or ends with it.
-void leave_out_walls(const Table& table, figures::Curve& curve) {
-  if (!table.has("solid_fraction") || !table.has("void_fraction")) return;
-  const auto solid = table.numbers("solid_fraction"), empty = table.numbers("void_fraction");
-  std::size_t first = curve.y.size(), last = 0;
-  for (std::size_t i = 0; i < curve.y.size(); ++i) {
-    if (solid[i] == 0 && empty[i] == 0) {
-      curve.y[i] = std::nan("");
-    } else {
-      first = std::min(first, i);
-      last = i + 1;
-    }
-  }
-  if (first >= last) return;
+/// NaN breaks a curve; none begins or ends with it.
+void trim(figures::Curve& curve) {
+  std::size_t first = 0, last = curve.y.size();
+  while (first < last && std::isnan(curve.y[first])) ++first;
+  while (last > first && std::isnan(curve.y[last - 1])) --last;
   for (auto* values : {&curve.x, &curve.y}) {
     values->erase(values->begin() + static_cast<std::ptrdiff_t>(last), values->end());
     values->erase(values->begin(), values->begin() + static_cast<std::ptrdiff_t>(first));
@@ -165,10 +155,10 @@ figures::CurveFigure overlay(const Moment& m, const std::filesystem::path& relat
     if (!path) continue;
     const Table table = read_table(*path);
     if (!table.has(value)) continue;
-    figures::Curve curve{m.labels[r], table.numbers(at), table.numbers(value)};
+    figures::Curve curve{m.labels[r], table.numbers(at), line_values(table, value)};
     for (double& x : curve.x) x *= 1e3;
     for (double& y : curve.y) y *= scale;
-    leave_out_walls(table, curve);
+    trim(curve);
     panel.curves.push_back(std::move(curve));
   }
   return panel;

@@ -71,6 +71,17 @@ voxel::Samples read_slice(const std::filesystem::path& csv) {
   return s;
 }
 
+std::vector<double> line_values(const Table& line, const std::string& column) {
+  constexpr double digits = 1e-6;  // to which tables tell that a voxel is whole
+  std::vector<double> values = line.numbers(column);
+  if (!line.has("solid_fraction") || !line.has("void_fraction")) return values;
+  const auto &solid = line.numbers("solid_fraction"), &empty = line.numbers("void_fraction");
+  const double enough = column == "void_fraction" ? 1 - digits : digits;
+  for (std::size_t i = 0; i < values.size(); ++i)
+    if (solid[i] + empty[i] < enough) values[i] = std::nan("");
+  return values;
+}
+
 std::string spoken(const std::string& name) {
   const auto at = name.find('@');
   if (at == std::string::npos) return spoken_pair(name);

@@ -8,12 +8,17 @@
 
 #include "coupling/io/particle_frame.h"
 #include "coupling/studies/run_folder.h"
+#include "coupling/studies/table.h"
 #include "voxel/sample.h"
 
 namespace interstice::studies {
 
 /// slices/NAME.csv as it was sampled. Throws InputError where it is no regular plane of voxels.
 voxel::Samples read_slice(const std::filesystem::path& csv);
+
+/// A column of a line's table with NaN where walls leave nothing of the voxel; of what is per voxel, where
+/// they take any part of it: what is missing there is no powder.
+std::vector<double> line_values(const Table& line, const std::string& column);
 
 /// "x=0.0045" as "x = 4.5 mm"; "y@x=0.009,z=3.5e-05" as "along y at x = 9 mm, z = 35 um".
 std::string spoken(const std::string& name);

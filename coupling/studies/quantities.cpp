@@ -7,6 +7,8 @@
 #include <functional>
 #include <limits>
 
+#include "coupling/studies/moment_files.h"
+
 namespace interstice::studies {
 namespace {
 
@@ -178,14 +180,14 @@ void add_lines(std::vector<Quantity>& rows, const std::string& field, const Mome
         const auto of = [&](const std::optional<Table>& table) {
           const bool wanted =
               kind == std::string_view("void_fraction");  // the averaged column may be missing
-          return table && (wanted || table->has(kind)) ? reduce(table->numbers(kind)) : none;
+          return table && (wanted || table->has(kind)) ? reduce(line_values(*table, kind)) : none;
         };
         add(rows, {fmt::format("{}/{}/lines/{}/{}_{}", moment.name, field, line, kind, suffix), of(a), of(b),
                    meaning});
       };
-      row("min", "smallest voxel on the line", [](const auto& v) { return extreme(v, false); });
-      row("mean", "mean over the line's voxels", [](const auto& v) { return mean(v); });
-      row("sd", "sample standard deviation (N - 1) over the line's voxels",
+      row("min", "smallest voxel on the line, clear of walls", [](const auto& v) { return extreme(v, false); });
+      row("mean", "mean over the line's voxels, clear of walls", [](const auto& v) { return mean(v); });
+      row("sd", "sample standard deviation (N - 1) over the line's voxels, clear of walls",
           [](const auto& v) { return deviation(v); });
     }
   }

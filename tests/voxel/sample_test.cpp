@@ -183,8 +183,11 @@ TEST(SampleLine, HasGapsWhereWallsLeaveNothing) {
     if (std::isnan(left[i])) continue;
     EXPECT_FLOAT_EQ(static_cast<float>(left[i]), i == 3 ? 0.5f : 1.0f) << i;
   }
+  const std::vector<double> clear = clear_of_walls(line);
+  for (std::size_t i = 0; i < 10; ++i) EXPECT_EQ(std::isnan(clear[i]), i >= 3 && i <= 5) << i;
   const Samples open = sample_line(compute_field({}, {}, request), 0, {0, 5e-6, 5e-6});
   EXPECT_EQ(outside_walls(open, open.void_fraction), open.void_fraction);
+  EXPECT_EQ(clear_of_walls(open), open.void_fraction);
 }
 
 TEST(SampleLine, WithoutDensityOrAverages) {

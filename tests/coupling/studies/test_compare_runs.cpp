@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "coupling/figures/figures.h"
 #include "coupling/studies/compare_runs.h"
+#include "coupling/studies/moment_files.h"
 #include "tests/coupling/figures/png.h"
 #include "tests/coupling/studies/synthetic_run.h"
 
@@ -275,6 +276,22 @@ TEST_F(CompareRuns, OneWrongThingIsNamedWithItsPlace) {
 TEST(CompareLabels, AreTheFoldersNamesUnlessTheyAreTheSame) {
   EXPECT_EQ(studies::default_labels("runs/static", "runs/moving/"), (studies::Labels{"static", "moving"}));
   EXPECT_EQ(studies::default_labels("one/out", "two/out"), (studies::Labels{"A", "B"}));
+}
+
+// A wall takes all of the first voxel and half of the last; the third is half full of powder.
+TEST(LineValues, LeaveOutWhatWallsTake) {
+  const studies::Table line("line.csv",
+                            {{"solid_fraction", {0, 0, 0.5, 0.1}, {}},
+                             {"void_fraction", {0, 1, 0.5, 0.4}, {}},
+                             {"void_fraction_averaged", {0.7, 0.7, 0.6, 0.6}, {}}},
+                            4);
+  const auto voxels = studies::line_values(line, "void_fraction");
+  EXPECT_TRUE(std::isnan(voxels[0]) && std::isnan(voxels[3]));
+  EXPECT_EQ(voxels[1], 1);
+  EXPECT_EQ(voxels[2], 0.5);
+  const auto averaged = studies::line_values(line, "void_fraction_averaged");
+  EXPECT_TRUE(std::isnan(averaged[0]));
+  EXPECT_EQ(std::vector<double>(averaged.begin() + 1, averaged.end()), (std::vector<double>{0.7, 0.6, 0.6}));
 }
 
 }  // namespace
