@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "base/parallel.h"
-#include "dem/wall_distance.h"
 
 namespace interstice::dem {
 namespace {
@@ -43,23 +42,6 @@ struct OldEnds {
   }
 };
 
-TangentialSpring<double> spring_at(const Reals& springs, std::size_t k) {
-  if (springs.empty()) return {};
-  return {{springs[spring_index(k, 0)], springs[spring_index(k, 1)], springs[spring_index(k, 2)]},
-          springs[spring_index(k, 3)]};
-}
-
-void set_spring(Reals& springs, std::size_t k, const TangentialSpring<double>& spring) {
-  for (int axis = 0; axis < 3; ++axis)
-    springs.set(spring_index(k, static_cast<std::size_t>(axis)), spring.force[axis]);
-  springs.set(spring_index(k, 3), spring.stiffness);
-}
-
-void copy_spring(const Reals& from, std::size_t old_pair, Reals& to, std::size_t pair) {
-  for (std::size_t n = 0; n < kSpringReals; ++n)
-    to.set(spring_index(pair, n), from[spring_index(old_pair, n)]);
-}
-
 }  // namespace
 
 PairContacts::PairContacts(const KeptMemories& kept, Precision precision)
@@ -79,7 +61,7 @@ void PairContacts::place_pairs(const std::vector<PairRef>& found, const PairOrde
   for (std::size_t i = 0; i < found.size(); ++i) {
     const std::size_t k = order.place[i];
     pairs_[k] = found[i];
-    bits_[k / kLanes].listed |= static_cast<std::uint16_t>(1u << (k % kLanes));
+    bits_[k / kLanes].list(k % kLanes);
   }
   for (std::size_t g = 0; g < bits_.size(); ++g) {
     const auto listed = static_cast<std::size_t>(std::countr_one(bits_[g].listed));  // empty places come last
@@ -89,7 +71,7 @@ void PairContacts::place_pairs(const std::vector<PairRef>& found, const PairOrde
 
 void PairContacts::replace(const std::vector<PairRef>& found, const PairClasses& classes,
                            const std::vector<GrainSite>& sites, const std::vector<std::uint32_t>& old_slot,
-                           const Parts& parts) {
+                           const Parts& parts, const std::vector<std::uint32_t>& further_ends) {
   const std::vector<GroupBits> old_bits = std::move(bits_);
   Reals old_sliding = std::move(sliding_), old_rolling = std::move(rolling_);
   const OldEnds old_ends{std::move(pairs_), std::move(first_end_), std::move(pair_of_end_)};
@@ -104,35 +86,21 @@ void PairContacts::replace(const std::vector<PairRef>& found, const PairClasses&
       if (a == kNoSlot || b == kNoSlot || !is_listed(k)) continue;
       const std::size_t from = old_ends.find(a, b);
       if (from == kNoPair) continue;
-      const auto move_bit = [&](std::uint16_t bits, std::uint16_t& to) {
-        to = static_cast<std::uint16_t>(to | (bits >> from % kLanes & 1) << k % kLanes);
-      };
-      move_bit(old_bits[from / kLanes].touching, bits_[k / kLanes].touching);
-      move_bit(old_bits[from / kLanes].attracting, bits_[k / kLanes].attracting);
+      bits_[k / kLanes].inherit(k % kLanes, old_bits[from / kLanes], from % kLanes);
       if (kept_.sliding) copy_spring(old_sliding, from, sliding_, k);
       if (kept_.rolling) copy_spring(old_rolling, from, rolling_, k);
     }
   });
-  ring_ = make_ring(sweep_, pairs_, first_end_, build_adjacency(sites));
+  ring_ = make_ring(sweep_, pairs_, first_end_, build_adjacency(sites), further_ends);
   ring_forces_.reset(ring_.places * kEndReals);
   kept_forces_.reset(ring_.kept * kEndReals);
   forces_.reset(0);
   if (kept_.heat) heat_.assign(pairs_.size(), {});
 }
 
-Vec3d PairContacts::force(std::size_t k) const {
-  if (forces_.empty()) return {0, 0, 0};
-  const auto number = [&](std::size_t n) { return forces_[axis_index(k, n)]; };
-  return {number(0), number(1), number(2)};
-}
-
-TangentialSpring<double> PairContacts::sliding(std::size_t k) const { return spring_at(sliding_, k); }
-TangentialSpring<double> PairContacts::rolling(std::size_t k) const { return spring_at(rolling_, k); }
-
 void PairContacts::set_touching(std::size_t k, const TangentialSpring<double>& sliding,
                                 const TangentialSpring<double>& rolling) {
-  GroupBits& bits = bits_[k / kLanes];
-  bits.touching = static_cast<std::uint16_t>(bits.touching | 1u << (k % kLanes));
+  bits_[k / kLanes].touch(k % kLanes);
   if (kept_.sliding) set_spring(sliding_, k, sliding);
   if (kept_.rolling) set_spring(rolling_, k, rolling);
 }
@@ -164,12 +132,10 @@ void PairContacts::fetch_shared(std::size_t block) {
 
 std::size_t PairContacts::bytes() const {
   return bytes_of(pairs_) + bytes_of(bits_) + bytes_of(ring_.rows) + bytes_of(ring_.count) +
-         bytes_of(ring_.of_pair) + bytes_of(ring_.shared) + sliding_.bytes() + rolling_.bytes() +
-         forces_.bytes() + ring_forces_.bytes() + kept_forces_.bytes() + bytes_of(heat_) +
+         bytes_of(ring_.of_pair) + bytes_of(ring_.nobodys) + bytes_of(ring_.shared) + sliding_.bytes() +
+         rolling_.bytes() + forces_.bytes() + ring_forces_.bytes() + kept_forces_.bytes() + bytes_of(heat_) +
          bytes_of(first_end_) + bytes_of(pair_of_end_);
 }
-
-std::size_t WallContacts::bytes() const { return bytes_of(entries) + bytes_of(first_); }
 
 std::vector<PairEnds> PairContacts::build_adjacency(const std::vector<GrainSite>& sites) {
   std::vector<std::uint32_t>& first = first_end_;
@@ -202,35 +168,6 @@ std::vector<PairEnds> PairContacts::build_adjacency(const std::vector<GrainSite>
     }
   });
   return ends_of_pair;
-}
-
-void WallContacts::replace(const std::vector<GrainSite>& sites, const std::vector<Shape>& walls, double reach,
-                           const std::vector<std::uint32_t>& old_slot) {
-  const Blocks blocks{sites.size(), kSlotsPerBlock};
-  std::vector<std::vector<WallContact>> found(blocks.count());
-  std::vector<std::uint32_t> count(sites.size() + 1, 0);
-  for_each_block(blocks, [&](std::size_t b, std::size_t begin, std::size_t end) {
-    for (std::size_t s = begin; s < end; ++s) {
-      for (std::uint32_t w = 0; w < walls.size(); ++w) {
-        if (wall_distance(walls[w], sites[s].position()).distance >= sites[s].radius + reach) continue;
-        WallContact contact;
-        contact.wall = w;
-        const std::uint32_t before = old_slot.empty() ? static_cast<std::uint32_t>(s) : old_slot[s];
-        if (before != PairContacts::kNoSlot) {
-          for (const WallContact& old : of(before)) {
-            if (old.wall == w) contact = old;
-          }
-        }
-        contact.slot = static_cast<std::uint32_t>(s);
-        found[b].push_back(contact);
-        ++count[s + 1];
-      }
-    }
-  });
-  entries.clear();
-  for (const auto& f : found) entries.insert(entries.end(), f.begin(), f.end());
-  for (std::size_t s = 1; s < count.size(); ++s) count[s] += count[s - 1];
-  first_ = std::move(count);
 }
 
 }  // namespace interstice::dem

@@ -23,10 +23,8 @@ struct Layout {
   std::size_t largest = 0;          // group
 };
 
-Layout lay_out(EndRing& ring, const std::vector<std::uint32_t>& first_end, std::size_t slots) {
-  const std::size_t groups = groups_for(slots);
-  ring.count.assign(groups * kLanes, 0);
-  for (std::size_t s = 0; s < slots; ++s) ring.count[s] = first_end[s + 1] - first_end[s];
+Layout lay_out(EndRing& ring) {
+  const std::size_t groups = ring.count.size() / kLanes;
   ring.rows.resize(groups);
   Layout layout;
   layout.before.assign(1, 0);
@@ -59,11 +57,11 @@ std::size_t widest_window(const Sweep& sweep, std::size_t part, const LargeVecto
   return widest;
 }
 
-/// Places in rings, one a part; returns how many.
-std::size_t place_groups(EndRing& ring, const Sweep& sweep, const LargeVector<PairRef>& pairs,
-                         const Layout& layout) {
+/// Places in rings, one a part.
+void place_groups(EndRing& ring, const Sweep& sweep, const LargeVector<PairRef>& pairs,
+                  const Layout& layout) {
   const Parts& parts = sweep.parts;
-  std::size_t base = 0;
+  ring.nobodys.resize(parts.blocks());
   for (std::size_t p = 0; p < parts.count(); ++p) {
     const std::size_t begin = parts.begin_row(parts.first_block[p]) / kLanes,
                       end = std::min(ring.rows.size(), parts.begin_row(parts.first_block[p + 1]) / kLanes);
@@ -72,47 +70,58 @@ std::size_t place_groups(EndRing& ring, const Sweep& sweep, const LargeVector<Pa
     for (std::size_t g = begin; g < end; ++g) {
       const std::size_t places = layout.before[g + 1] - layout.before[g];
       if (at + places > size) at = 0;  // a group's ends lie side by side
-      ring.rows[g].first = static_cast<std::uint32_t>(base + at);
+      ring.rows[g].first = static_cast<std::uint32_t>(ring.places + at);
       at += places;
     }
-    base += size;
+    ring.places += size;
+    for (std::size_t b = parts.first_block[p]; b < parts.first_block[p + 1]; ++b)
+      ring.nobodys[b] = static_cast<std::uint32_t>(ring.places);
+    ++ring.places;
   }
-  return base;
 }
 
-/// The place of a slot's end number `rank`.
-std::uint32_t place_of(const EndRing& ring, std::uint32_t slot, std::uint32_t rank) {
-  const EndRows& rows = ring.rows[slot / kLanes];
-  const std::uint32_t lane = slot % kLanes;
-  if (rank < rows.ranks) return rows.first + rank * static_cast<std::uint32_t>(kLanes) + place_of_lane(lane);
-  std::uint32_t place = rows.rest() + rank - rows.ranks;
-  for (std::uint32_t s = slot - lane; s < slot; ++s)
-    place += ring.count[s] - std::min(ring.count[s], rows.ranks);
-  return place;
+std::vector<std::uint32_t> ends_of_slots(const std::vector<std::uint32_t>& first_end,
+                                         const std::vector<std::uint32_t>& further) {
+  std::vector<std::uint32_t> count(groups_for(further.size()) * kLanes, 0);
+  for (std::size_t s = 0; s < further.size(); ++s) count[s] = first_end[s + 1] - first_end[s] + further[s];
+  return count;
 }
 
 }  // namespace
 
+std::uint32_t EndRing::place_of(std::uint32_t slot, std::uint32_t rank) const {
+  const EndRows& own = rows[slot / kLanes];
+  const std::uint32_t lane = slot % kLanes;
+  if (rank < own.ranks) return own.first + rank * static_cast<std::uint32_t>(kLanes) + place_of_lane(lane);
+  std::uint32_t place = own.rest() + rank - own.ranks;
+  for (std::uint32_t s = slot - lane; s < slot; ++s) place += count[s] - std::min(count[s], own.ranks);
+  return place;
+}
+
 EndRing make_ring(const Sweep& sweep, const LargeVector<PairRef>& pairs,
-                  const std::vector<std::uint32_t>& first_end, const std::vector<PairEnds>& ends) {
+                  const std::vector<std::uint32_t>& first_end, const std::vector<PairEnds>& ends,
+                  const std::vector<std::uint32_t>& further) {
   const Parts& parts = sweep.parts;
   EndRing ring;
-  const std::size_t nobodys = place_groups(ring, sweep, pairs, lay_out(ring, first_end, parts.rows));
-  ring.places = nobodys + 1;
+  ring.count = ends_of_slots(first_end, further);
+  place_groups(ring, sweep, pairs, lay_out(ring));
   ring.kept = 2 * sweep.shared_groups * kLanes + 1;
 
   ring.of_pair.resize(pairs.size());
   std::vector<std::vector<SharedEnd>> by_block(parts.blocks());
+  const auto place = [&](std::uint32_t slot, std::uint32_t end) {
+    return ring.place_of(slot, end - first_end[slot]);
+  };
+  std::size_t part = 0;
   for (std::size_t k = 0; k < pairs.size(); ++k) {
     const bool shared = k < sweep.shared_groups * kLanes;
     if (ends[k].a == ends[k].b) {
-      const auto nobody = static_cast<std::uint32_t>(shared ? ring.kept - 1 : nobodys);
+      while (!shared && part + 1 < parts.count() && k >= sweep.first_group[part + 1] * kLanes) ++part;
+      const auto nobody =
+          shared ? static_cast<std::uint32_t>(ring.kept - 1) : ring.nobodys[parts.first_block[part]];
       ring.of_pair[k] = {nobody, nobody};
       continue;
     }
-    const auto place = [&](std::uint32_t slot, std::uint32_t end) {
-      return place_of(ring, slot, end - first_end[slot]);
-    };
     const PairEnds in_ring{place(pairs[k].a, ends[k].a), place(pairs[k].b, ends[k].b)};
     if (!shared) {
       ring.of_pair[k] = in_ring;

@@ -6,6 +6,7 @@
 
 #include "dem/contacts.h"
 #include "dem/grains.h"
+#include "dem/wall_contacts.h"
 
 namespace interstice::dem {
 

@@ -48,7 +48,7 @@ void GrainStore::add(const GrainRow& g, const GrainAcceleration& acceleration) {
   if (slot % kLanes == 0) motions_.push_back({});
   motions_.back().set(slot % kLanes,
                       {g.velocity(), 1 / g.mass, g.spin(), 1 / (0.4 * g.mass * g.radius * g.radius)});
-  labels_.push_back({g.position(), g.id, g.mass, g.layer});
+  labels_.push_back({g.position(), g.mass, static_cast<std::uint32_t>(g.id), g.layer});
   materials_.push_back(g.material);
   accelerations_.push_back(acceleration);
   if (keeps_rests_) rests_.emplace_back();

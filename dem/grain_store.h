@@ -58,8 +58,8 @@ struct GrainAcceleration {
 
 struct GrainLabel {
   Vec3d built;  // where the grain stood when the neighbour list was built
-  std::int64_t id;
   double mass;  // [kg]
+  std::uint32_t id;
   std::int32_t layer;
 };
 

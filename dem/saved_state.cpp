@@ -22,7 +22,7 @@ void append(std::vector<double>& out, const TangentialSpring<double>& s) {
   out.push_back(s.stiffness);
 }
 
-TangentialSpring<double> spring_at(const std::vector<double>& in, std::size_t at) {
+TangentialSpring<double> spring_from(const std::vector<double>& in, std::size_t at) {
   return {vec_at(in, at), in[at + 3]};
 }
 
@@ -168,16 +168,16 @@ void Simulation::restore_springs(const SavedState& s) {
   for (std::size_t k = 0; 2 * k < pair_ids.size(); ++k) {
     for (const Adjacent& e : pair_contacts_.of(slot_of_id.at(static_cast<std::size_t>(pair_ids[2 * k])))) {
       if (grains_.labels()[e.slot].id != pair_ids[2 * k + 1]) continue;
-      pair_contacts_.set_touching(e.pair, spring_at(pair_springs, kRealsPerContact * k),
-                                  spring_at(pair_springs, kRealsPerContact * k + kRealsPerSpring));
+      pair_contacts_.set_touching(e.pair, spring_from(pair_springs, kRealsPerContact * k),
+                                  spring_from(pair_springs, kRealsPerContact * k + kRealsPerSpring));
     }
   }
   for (std::size_t k = 0; 2 * k < wall_ids.size(); ++k) {
-    for (WallContact& w : wall_contacts_.of(slot_of_id.at(static_cast<std::size_t>(wall_ids[2 * k])))) {
-      if (w.wall != wall_ids[2 * k + 1]) continue;
-      w.state = ContactState::touching;
-      w.sliding = spring_at(wall_springs, kRealsPerContact * k);
-      w.rolling = spring_at(wall_springs, kRealsPerContact * k + kRealsPerSpring);
+    const std::uint32_t slot = slot_of_id.at(static_cast<std::size_t>(wall_ids[2 * k]));
+    for (const std::uint32_t place : wall_contacts_.places_of(slot)) {
+      if (wall_contacts_.wall(place) != wall_ids[2 * k + 1]) continue;
+      wall_contacts_.set_touching(place, spring_from(wall_springs, kRealsPerContact * k),
+                                  spring_from(wall_springs, kRealsPerContact * k + kRealsPerSpring));
     }
   }
 }

@@ -10,8 +10,15 @@
 namespace interstice::dem {
 namespace {
 
+/// Ids and slots are kept in 32 bits, of which one number means none.
+constexpr std::int64_t kMostGrains = PairContacts::kNoSlot;
+
 Vec3d offset_at(const Vec3d& offset, const Vec3d& velocity, std::int64_t steps, double dt) {
   return offset + (static_cast<double>(steps) * dt) * velocity;
+}
+
+KeptMemories kept_memories(const Laws& laws, const SimulationOptions& options) {
+  return {keeps_spring(laws), keeps_rolling_spring(laws), options.energies};
 }
 
 }  // namespace
@@ -24,8 +31,8 @@ Simulation::Simulation(Model model, double time_step, const SimulationOptions& o
       motion_of_wall_(model_.walls.size()),
       wall_velocities_(model_.walls.size()),
       grains_(options.precision, options.sleep_tolerance > 0),
-      pair_contacts_({keeps_spring(model_.laws), keeps_rolling_spring(model_.laws), options.energies},
-                     options.precision) {
+      pair_contacts_(kept_memories(model_.laws, options), options.precision),
+      wall_contacts_(kept_memories(model_.laws, options), options.precision) {
   if (!(dt_ > 0) || !std::isfinite(dt_)) throw InputError("time step: must be positive and finite");
   for (std::size_t a = 0; a < model_.materials.size(); ++a) {
     for (std::size_t b = 0; b < model_.materials.size(); ++b) {
@@ -55,6 +62,9 @@ void Simulation::check_grain(const NewGrain& g) const {
   const auto finite = [](const Vec3d& v) {
     return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
   };
+  if (next_id_ >= kMostGrains)
+    throw InputError(
+        "more than 4,294,967,295 grains, those that left included; start from the grains that are left");
   const std::string who = "grain " + std::to_string(next_id_) + ": ";
   if (!finite(g.position) || !finite(g.velocity) || !finite(g.spin))
     throw InputError(who + "its place or motion is not finite; give finite numbers");
@@ -164,10 +174,9 @@ SearchSpace Simulation::search_space() const {
 
 std::size_t Simulation::bytes() const {
   return grains_.bytes() + pair_contacts_.bytes() + wall_contacts_.bytes() +
-         wall_effects_.capacity() * sizeof(WallEffect) + candidates_.capacity() * sizeof(PairRef) +
-         reach_.capacity() * sizeof(float) + path_left_.capacity() * sizeof(double) +
-         built_ids_.capacity() * sizeof(std::int64_t) + sleepers_.bytes() +
-         energies_.capacity() * sizeof(GrainEnergy);
+         candidates_.capacity() * sizeof(PairRef) + reach_.capacity() * sizeof(float) +
+         path_left_.capacity() * sizeof(double) + built_ids_.capacity() * sizeof(std::uint32_t) +
+         sleepers_.bytes() + energies_.capacity() * sizeof(GrainEnergy);
 }
 
 std::vector<std::uint32_t> Simulation::slots_by_id() const {

@@ -23,6 +23,7 @@
 #include "dem/neighbours.h"
 #include "dem/reals.h"
 #include "dem/sleepers.h"
+#include "dem/wall_contacts.h"
 
 namespace interstice::dem {
 
@@ -130,6 +131,7 @@ class Simulation {
   double speed_of(std::size_t slot) const;
   double candidate_reach_left(std::size_t slot) const;
   double candidate_reach_of(std::size_t slot) const;
+  double fastest_wall() const;
   double near_reach_of_walls() const;
   bool candidates_last() const;
   void update_lists();
@@ -144,16 +146,15 @@ class Simulation {
   void restore_energies(const SavedState& state);
   void restore_rests(const SavedState& state);
   double attraction_reach(double largest) const;
-  StepView step_view(const PairView& pairs) const;
+  StepView step_view(const PairView& pairs);
   void count_inserted_contacts();
   double inserted_on_wall(const GrainRow& grain, const WallContact& contact) const;
   template <bool kSleep, class Real>
   void evaluate_pairs(const StepView& view, std::size_t begin, std::size_t end, const PairRow<Real>* ahead,
                       const PairRow<Real>* ahead_end);
-  void evaluate_walls(const StepView& view, std::size_t begin, std::size_t end);
-  void add_walls(std::size_t group, Vec3<Each>& force, Vec3<Each>& torque);
   void add_lifting(std::size_t first, const Vec3<Each>& step);
-  void add_heat(std::size_t i);
+  void add_heat(std::size_t group);
+  void add_heat_of(std::size_t slot);
   std::size_t id_of(std::size_t slot) const { return static_cast<std::size_t>(grains_.labels()[slot].id); }
   void note_leaver(std::size_t i);
   void wake_all();
@@ -161,14 +162,16 @@ class Simulation {
   std::vector<bool> moving_walls() const;
   void tend_sleepers();
   void fall_asleep();
-  bool is_frozen(const WallContact& contact) const;
+  bool is_frozen(std::size_t slot, std::size_t wall) const;
   bool spares(std::size_t begin, std::size_t end) const;
   bool is_needed(std::size_t group) const { return watch_all_ || sleepers_.needed(group, looks_); }
   bool spares_pairs(std::size_t begin, std::size_t end) const;
   template <class Real>
   void evaluate_frozen(const StepView& view, std::size_t group);
+  bool is_left_out(std::size_t slot) const;
   template <class Real>
   void evaluate_needed(const StepView& view, std::size_t begin, std::size_t end);
+  template <class Real>
   void evaluate_needed_walls(const StepView& view, std::size_t begin, std::size_t end);
   template <class Real>
   void wake_disturbed(const PairRow<Real>* rows, std::size_t group, std::uint32_t watched,
@@ -192,7 +195,6 @@ class Simulation {
   std::int64_t only_material_ = -1;  // of all grains when the list was built; -1 where they differ
   PairContacts pair_contacts_;
   WallContacts wall_contacts_;
-  std::vector<WallEffect> wall_effects_;  // by entry of wall_contacts_
 
   std::int64_t step_ = 0;
   std::int64_t next_id_ = 0;
@@ -209,16 +211,16 @@ class Simulation {
   bool watch_all_ = false;  // this step works on all
 
   bool list_valid_ = false;
-  bool begun_ = false;                   // the step after step_ has been begun
-  double mean_diameter_ = 0;             // when the list was built [m]
-  double attraction_ = 0;                // how far bodies attract each other [m]
-  std::vector<PairRef> candidates_;      // whose long reaches meet
-  std::vector<float> reach_;             // by slot: how far from where the list was built candidates last [m]
-  LargeVector<double> path_left_;        // by slot, up to whole groups: what is left of the short reaches [m]
-  bool strayed_ = false;                 // a grain has used up its short reach
-  double reach_of_walls_ = 0;            // the same for walls [m]
-  std::vector<Shape> refreshed_walls_;   // as they stood when walls near grains were listed
-  std::vector<std::int64_t> built_ids_;  // by slot when the list was built; slots may have changed since
+  bool begun_ = false;                  // the step after step_ has been begun
+  double mean_diameter_ = 0;            // when the list was built [m]
+  double attraction_ = 0;               // how far bodies attract each other [m]
+  std::vector<PairRef> candidates_;     // whose long reaches meet
+  std::vector<float> reach_;            // by slot: how far from where the list was built candidates last [m]
+  LargeVector<double> path_left_;       // by slot, up to whole groups: what is left of the short reaches [m]
+  bool strayed_ = false;                // a grain has used up its short reach
+  double reach_of_walls_ = 0;           // the same for walls [m]
+  std::vector<Shape> refreshed_walls_;  // as they stood when walls near grains were listed
+  std::vector<std::uint32_t> built_ids_;  // by slot when the list was built; slots may have changed since
   std::int64_t rebuilds_ = 0, sorted_at_ = -1;
 };
 

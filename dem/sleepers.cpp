@@ -31,8 +31,8 @@ void Sleepers::survey(std::span<const GrainRest> rests, const PairContacts& pair
       stale_ = true;
     }
   }
-  for (const WallContact& w : walls.entries)
-    if (wall_moves[w.wall] && asleep_at(w.slot)) watch(w.slot);
+  for (std::size_t k = 0; k < walls.places(); ++k)
+    if (wall_moves[walls.wall(k)] && asleep_at(walls.slot(k))) watch(walls.slot(k));
   watch_partners(rests, pairs);
   all_idle_ = idle(0, rests.size(), true);
   spare_pairs(pairs);

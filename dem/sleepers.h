@@ -17,6 +17,7 @@
 #include "dem/contacts.h"
 #include "dem/grains.h"
 #include "dem/lanes.h"
+#include "dem/wall_contacts.h"
 
 namespace interstice::dem {
 

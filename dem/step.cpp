@@ -107,25 +107,20 @@ void Simulation::begin_step() {
   });
 }
 
-StepView Simulation::step_view(const PairView& pairs) const {
-  return {grains_.row_data(),
-          grains_.materials().data(),
-          search_space().period(),
-          dt_,
-          model_.slider_velocity,
-          constants_.data(),
-          constants_single_.data(),
-          model_.materials.size(),
-          only_material_,
-          pairs,
-          walls_.data(),
-          wall_velocities_.data(),
-          model_.walls.data()};
+StepView Simulation::step_view(const PairView& pairs) {
+  return {grains_.row_data(),       grains_.materials().data(),
+          search_space().period(),  dt_,
+          model_.slider_velocity,   constants_.data(),
+          constants_single_.data(), model_.materials.size(),
+          only_material_,           pairs,
+          wall_contacts_.view(),    walls_.data(),
+          wall_velocities_.data(),  model_.walls.data()};
 }
 
 void Simulation::evaluate_and_move(bool begin_next) {
   if (!begin_next) grains_.accelerations().resize(grains_.size());
   pair_contacts_.keep_forces(!begin_next || options_.energies);
+  wall_contacts_.keep_forces(!begin_next || options_.energies);
   grains_.with_rows([&](auto& rows) {
     if (!rest_) return evaluate_and_move<false>(rows.data(), begin_next);
     looks_ = RestRule::is_look(step_);
@@ -153,7 +148,6 @@ void Simulation::evaluate_and_move(PairRow<Real>* rows, bool begin_next) {
   const StepView shared = step_view(pair_contacts_.shared_view()), view = step_view(pair_contacts_.view());
   const Sweep& sweep = pair_contacts_.sweep();
   std::vector<PassReport> reports(sweep.parts.blocks());
-  wall_effects_.resize(wall_contacts_.entries.size());
   for_blocks({sweep.shared_groups, kGroupsPerTask}, [&](std::size_t, std::size_t begin, std::size_t end) {
     if constexpr (kSleep) return evaluate_needed<Real>(shared, begin, end);
     kernels_.pairs(model_.laws, shared, begin, end);
@@ -170,10 +164,11 @@ void Simulation::evaluate_and_move(PairRow<Real>* rows, bool begin_next) {
       const std::size_t begin = sweep.parts.begin_row(b), end = sweep.parts.end_row(b);
       if (kSleep && spares(begin, end)) continue;
       pair_contacts_.fetch_shared(b);
+      const std::size_t near = wall_contacts_.first_group(b), near_end = wall_contacts_.first_group(b + 1);
       if constexpr (kSleep) {
-        evaluate_needed_walls(view, begin, end);
+        evaluate_needed_walls<Real>(view, near, near_end);
       } else {
-        evaluate_walls(view, begin, end);
+        kernels_.walls(model_.laws, view, near, near_end);
       }
       reports[b] = move_rows<kSleep>(rows, view, begin, end, begin_next);
     }
@@ -212,36 +207,6 @@ void Simulation::evaluate_pairs(const StepView& view, std::size_t begin, std::si
   }
 }
 
-/// What walls do to the grains in slots [begin, end).
-void Simulation::evaluate_walls(const StepView& view, std::size_t begin, std::size_t end) {
-  const std::size_t first = wall_contacts_.before(begin), count = wall_contacts_.before(end) - first;
-  if (count > 0)
-    kernels_.walls(model_.laws, view, {wall_contacts_.entries.data() + first, count},
-                   wall_effects_.data() + first);
-}
-
-/// Adds what walls do to the grains of a group, and with energies counts the heat of its contacts.
-void Simulation::add_walls(std::size_t group, Vec3<Each>& force, Vec3<Each>& torque) {
-  const std::size_t first = group * kLanes, end = std::min(grains_.size(), first + kLanes);
-  const std::size_t from = wall_contacts_.before(first), to = wall_contacts_.before(end);
-  if (from != to) {
-    double forces[3][kLanes], torques[3][kLanes];
-    store(force, forces[0], forces[1], forces[2]);
-    store(torque, torques[0], torques[1], torques[2]);
-    for (std::size_t k = from; k < to; ++k) {
-      const std::size_t lane = wall_contacts_.entries[k].slot - first;
-      for (std::size_t axis = 0; axis < 3; ++axis) {
-        forces[axis][lane] += wall_contacts_.entries[k].force[static_cast<int>(axis)];
-        torques[axis][lane] += wall_effects_[k].torque[static_cast<int>(axis)];
-      }
-    }
-    force = load(forces[0], forces[1], forces[2]);
-    torque = load(torques[0], torques[1], torques[2]);
-  }
-  if (options_.energies)
-    for (std::size_t i = first; i < end; ++i) add_heat(i);
-}
-
 /// Collects the forces of some grains, completes their velocities, and begins the next step.
 template <bool kSleep, class Real>
 INTERSTICE_FLATTEN Simulation::PassReport Simulation::move_rows(PairRow<Real>* rows, const StepView& view,
@@ -253,8 +218,9 @@ INTERSTICE_FLATTEN Simulation::PassReport Simulation::move_rows(PairRow<Real>* r
   for (std::size_t g = begin / kLanes; g < groups_for(end); ++g) {
     if (kSleep && spares(g * kLanes, (g + 1) * kLanes)) continue;
     const auto sums = end_sums(ends, pair_contacts_.end_rows(g), pair_contacts_.end_counts() + g * kLanes);
-    Vec3<Each> force = simd::converted<double>(sums.force), torque = simd::converted<double>(sums.torque);
-    add_walls(g, force, torque);
+    const Vec3<Each> force = simd::converted<double>(sums.force),
+                     torque = simd::converted<double>(sums.torque);
+    if (options_.energies) add_heat(g);
     GroupMotion& m = grains_.motions()[g];
     const auto* const next = reinterpret_cast<const char*>(&m + 1);
     ask_for(next, next + sizeof(GroupMotion));

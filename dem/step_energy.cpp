@@ -14,8 +14,13 @@ void Simulation::add_lifting(std::size_t first, const Vec3<Each>& step) {
   }
 }
 
+void Simulation::add_heat(std::size_t group) {
+  const std::size_t first = group * kLanes;
+  for (std::size_t i = first; i < std::min(grains_.size(), first + kLanes); ++i) add_heat_of(i);
+}
+
 /// Half of each pair's heat to each of its grains; the work of walls by the trapezoidal rule.
-void Simulation::add_heat(std::size_t i) {
+void Simulation::add_heat_of(std::size_t i) {
   GrainEnergy& e = energies_[id_of(i)];
   for (const Adjacent& partner : pair_contacts_.of(i)) {
     if (rest_ && (sleepers_.frozen(partner.pair / kLanes) >> partner.pair % kLanes & 1) != 0) continue;
@@ -23,9 +28,9 @@ void Simulation::add_heat(std::size_t i) {
     e.heat += {0.5 * heat.damping, 0.5 * heat.sliding, 0.5 * heat.rolling, 0.5 * heat.adhesion};
   }
   double power = 0;
-  for (std::size_t k = wall_contacts_.before(i); k < wall_contacts_.before(i + 1); ++k) {
-    if (!is_frozen(wall_contacts_.entries[k])) e.heat += wall_effects_[k].heat;
-    power += wall_effects_[k].power;
+  for (const WallContact& w : wall_contacts_.of(i)) {
+    if (!is_frozen(w.slot, w.wall)) e.heat += w.heat;
+    power += w.power;
   }
   e.walls += 0.5 * dt_ * (e.wall_power + power);
   e.wall_power = power;

@@ -13,6 +13,33 @@ namespace {
 /// Lists are made anew when of so many grains one fell asleep or woke.
 constexpr std::size_t kTurnedOfAll = 8;
 
+constexpr std::uint32_t kAllLanes = (1u << kLanes) - 1;
+
+/// The springs of a group as they were.
+template <class Real>
+class KeptSprings {
+ public:
+  /// Either may be null.
+  KeptSprings(void* sliding, void* rolling, std::size_t group) {
+    void* const both[2] = {sliding, rolling};
+    for (std::size_t i = 0; i < 2; ++i) {
+      at_[i] = both[i] ? static_cast<Real*>(both[i]) + spring_index(group * kLanes, 0) : nullptr;
+      for (std::size_t n = 0; at_[i] && n < kSpringReals; ++n) before_[i][n] = P::load(at_[i] + n * kLanes);
+    }
+  }
+  void put_back(std::uint32_t lanes) const {
+    const auto kept = P::M::from_bits(lanes);
+    for (std::size_t i = 0; i < 2; ++i)
+      for (std::size_t n = 0; at_[i] && n < kSpringReals; ++n)
+        select(kept, before_[i][n], P::load(at_[i] + n * kLanes)).store(at_[i] + n * kLanes);
+  }
+
+ private:
+  using P = simd::Pack<Real, kLanes>;
+  Real* at_[2];
+  P before_[2][kSpringReals];
+};
+
 }  // namespace
 
 std::size_t Simulation::grains_asleep() const {
@@ -69,9 +96,8 @@ void Simulation::fall_asleep() {
     return rests[slot].calm && rests[slot].checks >= rest_->checks(grains_.site(slot).radius);
   };
   const auto undisturbed = [&](std::size_t slot) {
-    const auto walls = wall_contacts_.of(slot);
-    return std::none_of(walls.begin(), walls.end(),
-                        [&](const WallContact& w) { return w.touching() && moves[w.wall]; });
+    return std::ranges::none_of(wall_contacts_.of(slot),
+                                [&](const WallContact& w) { return w.touching() && moves[w.wall]; });
   };
   std::vector<std::size_t> falling;
   for (std::size_t s = 0; s < rests.size(); ++s)
@@ -91,20 +117,9 @@ void Simulation::fall_asleep() {
 /// Frozen pairs keep their springs: evaluated or not, they are the same.
 template <class Real>
 void Simulation::evaluate_frozen(const StepView& view, std::size_t group) {
-  using P = simd::Pack<Real, kLanes>;
-  Real* const springs[2] = {static_cast<Real*>(view.pairs.sliding), static_cast<Real*>(view.pairs.rolling)};
-  P before[2][kSpringReals];
-  for (std::size_t i = 0; i < 2; ++i)
-    for (std::size_t n = 0; springs[i] && n < kSpringReals; ++n)
-      before[i][n] = P::load(springs[i] + spring_index(group * kLanes, n));
+  const KeptSprings<Real> springs(view.pairs.sliding, view.pairs.rolling, group);
   kernels_.pairs(model_.laws, view, group, group + 1);
-  const auto keep = P::M::from_bits(sleepers_.frozen(group) & view.pairs.bits[group].touching);
-  for (std::size_t i = 0; i < 2; ++i) {
-    for (std::size_t n = 0; springs[i] && n < kSpringReals; ++n) {
-      Real* const at = springs[i] + spring_index(group * kLanes, n);
-      select(keep, before[i][n], P::load(at)).store(at);
-    }
-  }
+  springs.put_back(sleepers_.frozen(group) & view.pairs.bits[group].touching);
 }
 
 template <class Real>
@@ -123,30 +138,38 @@ void Simulation::evaluate_needed(const StepView& view, std::size_t begin, std::s
   }
 }
 
-bool Simulation::is_frozen(const WallContact& w) const {
-  return rest_ && sleepers_.asleep_at(w.slot) && dot(wall_velocities_[w.wall], wall_velocities_[w.wall]) == 0;
+/// Does a sleeper's contact with a wall at rest keep its springs?
+bool Simulation::is_frozen(std::size_t slot, std::size_t wall) const {
+  return rest_ && sleepers_.asleep_at(slot) && dot(wall_velocities_[wall], wall_velocities_[wall]) == 0;
 }
 
-/// Of grains that are awake or watched. A sleeper's contact with a wall at rest keeps its springs.
+/// Does nobody ask in this step what walls do to the grain in `slot`?
+bool Simulation::is_left_out(std::size_t slot) const {
+  return !watch_all_ && sleepers_.asleep_at(slot) && !(looks_ && sleepers_.watched_at(slot));
+}
+
+/// Where a group has contacts that are left out or frozen, these stay as they are.
+template <class Real>
 void Simulation::evaluate_needed_walls(const StepView& view, std::size_t begin, std::size_t end) {
-  if (sleepers_.all_awake(begin, end)) return evaluate_walls(view, begin, end);
-  std::vector<std::size_t> needed;
-  std::vector<WallContact> contacts;
-  for (std::size_t k = wall_contacts_.before(begin); k < wall_contacts_.before(end); ++k) {
-    const std::size_t slot = wall_contacts_.entries[k].slot;
-    if (!watch_all_ && sleepers_.asleep_at(slot) && !(looks_ && sleepers_.watched_at(slot))) continue;
-    needed.push_back(k);
-    contacts.push_back(wall_contacts_.entries[k]);
-  }
-  if (needed.empty()) return;
-  std::vector<WallEffect> effects(needed.size());
-  kernels_.walls(model_.laws, view, contacts, effects.data());
-  for (std::size_t i = 0; i < needed.size(); ++i) {
-    WallContact& kept = wall_contacts_.entries[needed[i]];
-    if (is_frozen(kept) && contacts[i].touching())
-      contacts[i].sliding = kept.sliding, contacts[i].rolling = kept.rolling;
-    kept = contacts[i];
-    wall_effects_[needed[i]] = effects[i];
+  const WallView& w = view.near_walls;
+  for (std::size_t group = begin; group < end; ++group) {
+    std::uint32_t left_out = 0, frozen = 0;
+    for (std::size_t lane = 0; lane < kLanes; ++lane) {
+      const std::uint32_t slot = w.slots[group * kLanes + lane], wall = w.walls[group * kLanes + lane];
+      left_out |= static_cast<std::uint32_t>(is_left_out(slot)) << lane;
+      frozen |= static_cast<std::uint32_t>(is_frozen(slot, wall)) << lane;
+    }
+    if (left_out == kAllLanes) continue;
+    const GroupBits before = w.bits[group];
+    const KeptSprings<Real> springs(w.sliding, w.rolling, group);
+    kernels_.walls(model_.laws, view, group, group + 1);
+    GroupBits& now = w.bits[group];
+    const auto stays = [&](std::uint16_t old, std::uint16_t fresh) {
+      return static_cast<std::uint16_t>((old & left_out) | (fresh & ~left_out));
+    };
+    now.touching = stays(before.touching, now.touching);
+    now.attracting = stays(before.attracting, now.attracting);
+    springs.put_back(left_out | (frozen & now.touching));
   }
 }
 
@@ -217,6 +240,8 @@ void Simulation::judge_rest(const PairRow<Real>* rows, std::size_t group, const 
 
 template void Simulation::evaluate_needed<float>(const StepView&, std::size_t, std::size_t);
 template void Simulation::evaluate_needed<double>(const StepView&, std::size_t, std::size_t);
+template void Simulation::evaluate_needed_walls<float>(const StepView&, std::size_t, std::size_t);
+template void Simulation::evaluate_needed_walls<double>(const StepView&, std::size_t, std::size_t);
 template void Simulation::judge_rest(const PairRow<float>*, std::size_t, const Vec3<Each>&, GroupState&);
 template void Simulation::judge_rest(const PairRow<double>*, std::size_t, const Vec3<Each>&, GroupState&);
 

@@ -21,15 +21,16 @@ constexpr std::size_t kPartsPerThread = 2;
 
 /// Steps for which near pairs shall last, and how many times as long candidates: a refresh takes some five
 /// steps, a search three times that.
-constexpr double kStepsAhead = 150, kCandidatesLast = 4;
+constexpr double kStepsAhead = 100, kCandidatesLast = 4;
 /// Candidates that leave a grain fewer steps than this, and less than this share of its reach, are found
 /// anew.
 constexpr double kLeastSteps = 20, kLeastShare = 0.25;
 /// A grain may become faster: its reach is so many times what it needs at its present speed.
 constexpr double kHaste = 1.5;
 /// The least and the greatest short reach, in mean diameters: where all is at rest lists need not last
-/// forever, and where grains fly long reaches would list pairs that never touch.
-constexpr double kLeastReach = 0.001, kGreatestReach = 0.1;
+/// forever, and where grains fly long reaches would list pairs that never touch. A wall that moves sets
+/// grains at rest in motion all the time: their reach is longer then.
+constexpr double kLeastReach = 0.001, kLeastReachWhilePushed = 0.01, kGreatestReach = 0.1;
 /// The least long reach, in mean diameters.
 constexpr double kLeastCandidateReach = 0.02;
 /// Reaches are kept in single precision: those that must fit are so much shorter.
@@ -40,8 +41,9 @@ constexpr double kFits = 1 - 1e-6;
 /// The short reach of something that moves with this speed [m].
 double Simulation::near_reach(double speed) const {
   if (options_.skin > 0) return options_.skin / (2 * kCandidatesLast);
-  return std::clamp(kHaste * kStepsAhead * dt_ * speed, kLeastReach * mean_diameter_,
-                    kGreatestReach * mean_diameter_);
+  const double least = fastest_wall() > 0 ? kLeastReachWhilePushed : kLeastReach;
+  return mean_diameter_ *
+         std::clamp(kHaste * kStepsAhead * dt_ * speed / mean_diameter_, least, kGreatestReach);
 }
 
 double Simulation::speed_of(std::size_t slot) const {
@@ -62,10 +64,15 @@ double Simulation::candidate_reach_of(std::size_t slot) const {
   return std::max(kCandidatesLast * near_reach(speed_of(slot)), kLeastCandidateReach * mean_diameter_);
 }
 
-/// How far walls may go before those near grains are listed anew [m].
-double Simulation::near_reach_of_walls() const {
+double Simulation::fastest_wall() const {
   double fastest = 0;
   for (const WallMotion& m : motion_of_wall_) fastest = std::max(fastest, norm(m.velocity));
+  return fastest;
+}
+
+/// How far walls may go before those near grains are listed anew [m].
+double Simulation::near_reach_of_walls() const {
+  const double fastest = fastest_wall();
   return fastest > 0 ? near_reach(fastest) : 0;
 }
 
@@ -147,15 +154,14 @@ void Simulation::rebuild() {
   mean_diameter_ = sites.empty() ? 0 : 2 * radius_sum / static_cast<double>(sites.size());
   attraction_ = attraction_reach(largest);
   std::vector<std::uint32_t> slot_of_id(static_cast<std::size_t>(next_id_), PairContacts::kNoSlot);
-  for (std::uint32_t s = 0; s < built_ids_.size(); ++s)
-    slot_of_id[static_cast<std::size_t>(built_ids_[s])] = s;
+  for (std::uint32_t s = 0; s < built_ids_.size(); ++s) slot_of_id[built_ids_[s]] = s;
   sort_grains(sites);
   std::vector<std::uint32_t> old_slot(sites.size());
   for (std::size_t s = 0; s < sites.size(); ++s)
     old_slot[s] = slot_of_id[static_cast<std::size_t>(sites[s].id)];
   built_ids_.resize(sites.size());
   for (std::size_t s = 0; s < sites.size(); ++s) {
-    built_ids_[s] = sites[s].id;
+    built_ids_[s] = static_cast<std::uint32_t>(sites[s].id);
     grains_.labels()[s].built = sites[s].position();
   }
   note_materials();
@@ -215,9 +221,13 @@ void Simulation::refresh(const std::vector<std::uint32_t>& old_slot, const std::
     for (const auto& block : by_class[rank]) pairs.insert(pairs.end(), block.begin(), block.end());
     end[rank] = pairs.size();
   }
-  pair_contacts_.replace(pairs, {end[0], end[1]}, sites, old_slot, parts());
   reach_of_walls_ = near_reach_of_walls();
   wall_contacts_.replace(reaching, walls_, reach_of_walls_ + attraction_, old_slot);
+  std::vector<std::uint32_t> walls_near(sites.size());
+  for (std::size_t s = 0; s < sites.size(); ++s)
+    walls_near[s] = static_cast<std::uint32_t>(wall_contacts_.places_of(s).size());
+  pair_contacts_.replace(pairs, {end[0], end[1]}, sites, old_slot, parts(), walls_near);
+  wall_contacts_.place_ends(pair_contacts_);
   refreshed_walls_ = walls_;
   survey_due_ = true;
   strayed_ = false;

@@ -1,45 +1,61 @@
-// How far a point is from a wall's surface, and in which direction.
+// How far points are from a wall's surface, and in which direction: of one point, or of a point a lane.
 #pragma once
 
-#include <cmath>
-
 #include "base/shapes.h"
+#include "dem/contact/numeric.h"
 
 namespace interstice::dem {
 
+template <class T>
 struct WallDistance {
-  double distance;  // [m], negative inside the wall
-  Vec3d normal;     // unit, from the wall to the point
+  T distance;      // [m], negative inside the wall
+  Vec3<T> normal;  // unit, from the wall to the point
 };
 
-inline WallDistance wall_distance(const Plane& plane, const Vec3d& p) {
-  return {plane.distance(p), plane.normal};
+/// The same vector for every lane.
+template <class T>
+Vec3<T> in_every_lane(const Vec3d& v) {
+  return {T(v.x), T(v.y), T(v.z)};
 }
 
-inline WallDistance wall_distance(const Box& box, const Vec3d& p) {
-  const Vec3d away = p - box.nearest(p);
-  const double d2 = dot(away, away);
-  if (d2 > 0) {
-    const double d = std::sqrt(d2);
-    return {d, (1 / d) * away};
-  }
-  // The centre is inside: out through the nearest face (the first of them, so that ties are decided the same
-  // way).
-  WallDistance best{-1e300, {0, 0, 1}};
+template <class T>
+WallDistance<T> wall_distance(const Plane& plane, const Vec3<T>& p) {
+  const Vec3<T> normal = in_every_lane<T>(plane.normal);
+  return {dot(p - in_every_lane<T>(plane.point), normal), normal};
+}
+
+/// From a point inside out through the nearest face (the first of them, so that ties are decided the same
+/// way).
+template <class T>
+WallDistance<T> distance_from_inside(const Vec3<T>& lo, const Vec3<T>& hi, const Vec3<T>& p) {
+  WallDistance<T> best{T(-1e300), {T(0), T(0), T(1)}};
   for (int axis = 0; axis < 3; ++axis) {
     for (int side = 0; side < 2; ++side) {
-      const double depth = side == 0 ? box.lo[axis] - p[axis] : p[axis] - box.hi[axis];
-      if (depth > best.distance) {
-        best.distance = depth;
-        best.normal = {0, 0, 0};
-        best.normal[axis] = side == 0 ? -1 : 1;
-      }
+      const T depth = side == 0 ? lo[axis] - p[axis] : p[axis] - hi[axis];
+      Vec3<T> normal{T(0), T(0), T(0)};
+      normal[axis] = T(side == 0 ? -1 : 1);
+      const auto nearer = depth > best.distance;
+      best = {select(nearer, depth, best.distance), select(nearer, normal, best.normal)};
     }
   }
   return best;
 }
 
-inline WallDistance wall_distance(const Shape& shape, const Vec3d& p) {
+template <class T>
+WallDistance<T> wall_distance(const Box& box, const Vec3<T>& p) {
+  const Vec3<T> lo = in_every_lane<T>(box.lo), hi = in_every_lane<T>(box.hi);
+  const Vec3<T> nearest{min_of(max_of(p.x, lo.x), hi.x), min_of(max_of(p.y, lo.y), hi.y),
+                        min_of(max_of(p.z, lo.z), hi.z)};
+  const Vec3<T> away = p - nearest;
+  const T d2 = dot(away, away), d = sqrt_of(d2);
+  const WallDistance<T> inside = distance_from_inside(lo, hi, p);
+  const auto outside = d2 > T(0);
+  const Vec3<T> normal = (T(1) / d) * away;
+  return {select(outside, d, inside.distance), select(outside, normal, inside.normal)};
+}
+
+template <class T>
+WallDistance<T> wall_distance(const Shape& shape, const Vec3<T>& p) {
   if (const auto* plane = std::get_if<Plane>(&shape)) return wall_distance(*plane, p);
   return wall_distance(std::get<Box>(shape), p);
 }

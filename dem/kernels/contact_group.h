@@ -7,6 +7,24 @@
 
 namespace interstice::dem {
 
+/// Springs of a group, by number and lane.
+template <class P>
+TangentialSpring<P> load_spring(const RealOf<P>* at) {
+  return {{P::load(at), P::load(at + kLanes), P::load(at + 2 * kLanes)}, P::load(at + 3 * kLanes)};
+}
+template <class P>
+void store_spring(const TangentialSpring<P>& spring, const typename P::M& kept, RealOf<P>* at) {
+  select(kept, spring.force.x, P(0)).store(at);
+  select(kept, spring.force.y, P(0)).store(at + kLanes);
+  select(kept, spring.force.z, P(0)).store(at + 2 * kLanes);
+  select(kept, spring.stiffness, P(0)).store(at + 3 * kLanes);
+}
+
+template <class P>
+void store_columns(const Vec3<P>& v, RealOf<P>* at) {
+  v.x.store(at), v.y.store(at + kLanes), v.z.store(at + 2 * kLanes);
+}
+
 /// Which contacts of a group do what in this step, a bit a contact.
 struct ContactStates {
   std::uint32_t before;      // touching after the last step

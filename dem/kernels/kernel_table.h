@@ -19,12 +19,11 @@ void pairs_entry(const Laws& chosen, const StepView& v, std::size_t begin, std::
 }
 
 template <class L, class Real>
-void walls_entry(const Laws& chosen, const StepView& v, std::span<WallContact> contacts,
-                 WallEffect* effects) {
+void walls_entry(const Laws& chosen, const StepView& v, std::size_t begin, std::size_t end) {
   if constexpr (std::is_same_v<L, Laws>) {
-    evaluate_walls<Laws, Real>(chosen, v, contacts, effects);
+    evaluate_walls<Laws, Real>(chosen, v, begin, end);
   } else {
-    evaluate_walls<L, Real>(L{}, v, contacts, effects);
+    evaluate_walls<L, Real>(L{}, v, begin, end);
   }
 }
 

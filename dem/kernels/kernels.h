@@ -7,6 +7,7 @@
 #include "dem/grain_store.h"
 #include "dem/model.h"
 #include "dem/neighbours.h"
+#include "dem/wall_contacts.h"
 
 namespace interstice::dem {
 
@@ -23,6 +24,7 @@ struct StepView {
   std::int64_t only_material;  // of all grains; -1 where they differ
 
   PairView pairs;
+  WallView near_walls;
 
   const Shape* walls;
   const Vec3d* wall_velocities;
@@ -32,8 +34,8 @@ struct StepView {
 struct ForceKernels {
   /// Evaluates the groups of pairs [begin, end).
   void (*pairs)(const Laws&, const StepView&, std::size_t begin, std::size_t end);
-  /// Evaluates contacts with walls; an effect each.
-  void (*walls)(const Laws&, const StepView&, std::span<WallContact>, WallEffect*);
+  /// Evaluates the groups of contacts with walls [begin, end).
+  void (*walls)(const Laws&, const StepView&, std::size_t begin, std::size_t end);
   bool generic;  // laws chosen at run time
 };
 

@@ -10,175 +10,149 @@
 namespace interstice::dem {
 
 /// How the grains of a group stand to their walls, and how these move.
-template <class P>
-struct WallGeometry {
-  simd::Pack<double, kLanes> distance;  // [m]
-  Vec3<P> normal, velocity;
+struct WallSites {
+  Doubles distance;  // [m]
+  Vec3<Doubles> normal, velocity;
 };
 
+inline WallSites sites_at(const StepView& v, std::uint32_t wall, const Vec3<Doubles>& position) {
+  const auto surface = wall_distance(v.walls[wall], position);
+  return {surface.distance, surface.normal, in_every_lane<Doubles>(v.wall_velocities[wall])};
+}
+
+/// `walls`: of each lane, in ascending order.
+inline WallSites wall_sites(const StepView& v, const std::uint32_t* walls, const Vec3<Doubles>& position) {
+  WallSites sites = sites_at(v, walls[0], position);
+  if (walls[0] == walls[kLanes - 1]) return sites;
+  for (std::size_t lane = 1; lane < kLanes; ++lane) {
+    if (walls[lane] == walls[lane - 1]) continue;
+    const auto from_here = Doubles::M::from_bits(0xffffu & ~0u << lane);
+    const WallSites next = sites_at(v, walls[lane], position);
+    sites = {select(from_here, next.distance, sites.distance), select(from_here, next.normal, sites.normal),
+             select(from_here, next.velocity, sites.velocity)};
+  }
+  return sites;
+}
+
 template <class P>
-WallGeometry<P> wall_geometry(const StepView& v, const WallContact* contacts, std::size_t count,
-                              const Vec3<simd::Pack<double, kLanes>>& position) {
-  using D = simd::Pack<double, kLanes>;
-  double at[3][kLanes], distance[kLanes], normal[3][kLanes], velocity[3][kLanes];
-  position.x.store(at[0]), position.y.store(at[1]), position.z.store(at[2]);
-  for (std::size_t i = 0; i < kLanes; ++i) {
-    const std::uint32_t wall = contacts[std::min(i, count - 1)].wall;
-    const WallDistance surface = wall_distance(v.walls[wall], {at[0][i], at[1][i], at[2][i]});
-    distance[i] = surface.distance;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      normal[axis][i] = surface.normal[static_cast<int>(axis)];
-      velocity[axis][i] = v.wall_velocities[wall][static_cast<int>(axis)];
-    }
-  }
-  const auto vector = [](const double(&columns)[3][kLanes]) {
-    return simd::converted<RealOf<P>>(Vec3<D>{D::load(columns[0]), D::load(columns[1]), D::load(columns[2])});
+PairConstants<P> wall_constants(const StepView& v, const std::uint32_t* slots, const std::uint32_t* walls) {
+  using Real = RealOf<P>;
+  const auto of = [&](std::size_t material, std::uint32_t wall) -> const PairConstants<Real>& {
+    return constants_of<Real>(v, material, v.wall_models[wall].material);
   };
-  return {D::load(distance), vector(normal), vector(velocity)};
+  if (v.only_material >= 0 && walls[0] == walls[kLanes - 1])
+    return of(static_cast<std::size_t>(v.only_material), walls[0]).template as<P>();
+  return load_constants<P>(
+      [&](int lane) -> const PairConstants<Real>& { return of(v.materials[slots[lane]], walls[lane]); });
 }
 
-template <class At>
-GroupBits bits_of(const At& contact_at) {
-  GroupBits bits;
-  bits.listed = static_cast<std::uint16_t>(-1);
-  for (int i = 0; i < static_cast<int>(kLanes); ++i) {
-    const auto bit = static_cast<std::uint16_t>(1u << i);
-    if (contact_at(i).state == ContactState::touching) bits.touching |= bit;
-    if (contact_at(i).state == ContactState::attracting) bits.attracting |= bit;
-  }
-  return bits;
-}
-
-/// A spring that a contact keeps in double.
-template <TangentialSpring<double> WallContact::*spring, class P, class At>
-TangentialSpring<P> load_wall_spring(const At& contact_at) {
-  simd::QuadLoader<kLanes> loader;
+/// Force and torque on each grain.
+template <class P>
+void store_wall_ends(const std::uint32_t* ends, const Vec3<P>& force, const Vec3<P>& torque,
+                     void* end_forces) {
+  using Real = RealOf<P>;
+  using Quads = simd::Quads<Real, kLanes>;
+  const simd::RowOffsets<kLanes> offsets(ends, kEndReals * sizeof(Real) / sizeof(double));
+  const simd::OctStorer<Real, kLanes> to(Quads(force.x, force.y, force.z, P(0)),
+                                         Quads(torque.x, torque.y, torque.z, P(0)));
   simd::unrolled<kLanes>([&](auto lane) {
     constexpr int i = decltype(lane)::value;
-    loader.template load<i>(&(contact_at(i).*spring).force.x);
-  });
-  const auto c = loader.columns();
-  const auto real = [](const auto& column) { return simd::converted<RealOf<P>>(column); };
-  return {{real(c[0]), real(c[1]), real(c[2])}, real(c[3])};
-}
-template <TangentialSpring<double> WallContact::*spring, class P, class At>
-void store_wall_spring(const TangentialSpring<P>& s, const typename P::M& kept, const At& contact_at) {
-  const auto d = [&](const P& number) { return simd::converted<double>(select(kept, number, P(0))); };
-  const simd::Quads<double, kLanes> storer(d(s.force.x), d(s.force.y), d(s.force.z), d(s.stiffness));
-  simd::unrolled<kLanes>([&](auto lane) {
-    constexpr int i = decltype(lane)::value;
-    storer.template store<i>(&(contact_at(i).*spring).force.x);
+    to.template store<i>(offsets.template at<Real>(i, end_forces));
   });
 }
 
-template <class P, class To>
-void store_vectors(const Vec3<P>& v, const To& to) {
-  const auto d = simd::converted<double>(v);
-  const simd::Quads<double, kLanes> storer(d.x, d.y, d.z, simd::Pack<double, kLanes>(0));
-  simd::unrolled<kLanes>([&](auto lane) {
-    constexpr int i = decltype(lane)::value;
-    storer.template store_three<i>(&to(i).x);
-  });
+/// No force from the walls of a group.
+template <class P>
+void leave_walls_apart(const StepView& v, std::size_t group) {
+  const std::size_t first = group * kLanes;
+  const WallView& w = v.near_walls;
+  const Vec3<P> none{P(0), P(0), P(0)};
+  store_wall_ends(w.ends + first, none, none, v.pairs.end_forces);
+  if (w.forces) store_columns(none, static_cast<RealOf<P>*>(w.forces) + axis_index(first, 0));
+  if (w.heat) std::fill_n(w.heat + first, kLanes, PairHeat{}), std::fill_n(w.power + first, kLanes, 0.0);
 }
 
-inline void set_states(const ContactStates& s, WallContact* contacts, std::size_t count) {
-  for (std::size_t i = 0; i < count; ++i) {
-    contacts[i].state = s.touching >> i & 1     ? ContactState::touching
-                        : s.attracting >> i & 1 ? ContactState::attracting
-                                                : ContactState::apart;
-  }
-}
-
-/// Lanes beyond `count` <= kLanes repeat the last contact in everything: what they store is what that stores.
-template <class L, class Real>
-void evaluate_wall_group(const L& laws, const StepView& v, WallContact* contacts, std::size_t count,
-                         WallEffect* effects) {
-  using P = simd::Pack<Real, kLanes>;
-  using M = typename P::M;
-  const auto contact_at = [&](int lane) -> WallContact& {
-    return contacts[std::min(static_cast<std::size_t>(lane), count - 1)];
-  };
-  const auto effect_at = [&](int lane) -> WallEffect& {
-    return effects[std::min(static_cast<std::size_t>(lane), count - 1)];
-  };
-  simd::QuadLoader<kLanes> sites;
-  RowLoader<P> rows;
-  simd::unrolled<kLanes>([&](auto lane) {
-    constexpr int i = decltype(lane)::value;
-    const auto& row = static_cast<const PairRow<Real>*>(v.rows)[contact_at(i).slot];
-    sites.template load<i>(&row.x);
-    rows.template load<i>(&row.vx);
-  });
-  const auto site = sites.columns();
-  const GrainRows<P> grain = grain_rows<P>(rows);
-  const WallGeometry<P> wall = wall_geometry<P>(v, contacts, count, {site[0], site[1], site[2]});
-  const P overlap = simd::converted<Real>(site[3] - wall.distance);
-  const GroupBits bits = bits_of(contact_at);
-  if (stay_apart(laws, bits, overlap)) {
-    std::fill_n(effects, count, WallEffect{});
-    return;
-  }
-  const PairConstants<P> c = load_constants<P>([&](int lane) -> const PairConstants<Real>& {
-    const WallContact& contact = contact_at(lane);
-    return constants_of<Real>(v, v.materials[contact.slot], v.wall_models[contact.wall].material);
-  });
-  P attraction(0);
-  const ContactStates s = contact_states(laws, bits, overlap, c, grain.radius, attraction);
-  const M touching = M::from_bits(s.touching);
-
+template <class P>
+ContactKinematics<P> wall_kinematics(const auto& laws, const GrainRows<P>& grain, const WallSites& wall,
+                                     const P& overlap, P& arm) {
+  using Real = RealOf<P>;
   ContactKinematics<P> kin{};
   kin.overlap = laws.cohesion == CohesionLaw::jkr ? overlap : max_of(overlap, P(0));
   kin.effective_radius = grain.radius;
   kin.effective_mass = inverse_of(grain.inverse_mass);
-  kin.normal = wall.normal;
+  kin.normal = simd::converted<Real>(wall.normal);
   if (laws.cohesion == CohesionLaw::sjkr) kin.area = sphere_plane_area(grain.radius, kin.overlap);
-  const P arm = grain.radius - kin.overlap;
-  kin.velocity = grain.velocity - wall.velocity;
+  arm = grain.radius - kin.overlap;
+  kin.velocity = grain.velocity - simd::converted<Real>(wall.velocity);
   kin.relative_spin = grain.spin;
   if (laws.tangential != TangentialLaw::none)
-    kin.velocity = kin.velocity - cross(arm * grain.spin, wall.normal);
+    kin.velocity = kin.velocity - cross(arm * grain.spin, kin.normal);
+  return kin;
+}
 
+template <class L, class Real>
+void evaluate_wall_group(const L& laws, const StepView& v, std::size_t group) {
+  using P = simd::Pack<Real, kLanes>;
+  using M = typename P::M;
+  const WallView& w = v.near_walls;
+  const std::size_t first = group * kLanes;
+  GroupBits& bits = w.bits[group];
+  simd::QuadLoader<kLanes> places;
+  RowLoader<P> rows;
+  const simd::RowOffsets<kLanes> offsets(w.slots + first, sizeof(PairRow<Real>) / sizeof(double));
+  simd::unrolled<kLanes>([&](auto lane) {
+    constexpr int i = decltype(lane)::value;
+    const auto& row = *offsets.template at<PairRow<Real>>(i, v.rows);
+    places.template load<i>(&row.x);
+    rows.template load<i>(&row.vx);
+  });
+  const auto place = places.columns();
+  const WallSites wall = wall_sites(v, w.walls + first, {place[0], place[1], place[2]});
+  const P overlap = simd::converted<Real>(place[3] - wall.distance);
+  if (stay_apart(laws, bits, overlap)) return leave_walls_apart<P>(v, group);
+
+  const GrainRows<P> grain = grain_rows<P>(rows);
+  const PairConstants<P> c = wall_constants<P>(v, w.slots + first, w.walls + first);
+  P attraction(0), arm;
+  const ContactStates s = contact_states(laws, bits, overlap, c, grain.radius, attraction);
+  const M touching = M::from_bits(s.touching);
+  const ContactKinematics<P> kin = wall_kinematics<P>(laws, grain, wall, overlap, arm);
+  const auto spring = [&](void* springs) { return static_cast<Real*>(springs) + spring_index(first, 0); };
   ContactMemory<P> memory{};
-  if (laws.tangential == TangentialLaw::mindlin)
-    memory.sliding = load_wall_spring<&WallContact::sliding, P>(contact_at);
-  if (laws.rolling == RollingLaw::epsd2)
-    memory.rolling = load_wall_spring<&WallContact::rolling, P>(contact_at);
+  if (laws.tangential == TangentialLaw::mindlin) memory.sliding = load_spring<P>(spring(w.sliding));
+  if (laws.rolling == RollingLaw::epsd2) memory.rolling = load_spring<P>(spring(w.rolling));
   const ContactForce<P> f =
       evaluate_contact(laws, kin, c, memory, step_constants<P>(v.dt, v.slider_velocity));
-  if (laws.tangential == TangentialLaw::mindlin)
-    store_wall_spring<&WallContact::sliding>(f.memory.sliding, touching, contact_at);
-  if (laws.rolling == RollingLaw::epsd2)
-    store_wall_spring<&WallContact::rolling>(f.memory.rolling, touching, contact_at);
+  if (laws.tangential == TangentialLaw::mindlin) store_spring(f.memory.sliding, touching, spring(w.sliding));
+  if (laws.rolling == RollingLaw::epsd2) store_spring(f.memory.rolling, touching, spring(w.rolling));
 
   const Vec3<P> none{P(0), P(0), P(0)};
   Vec3<P> across = none, torque = none;
   if (laws.cohesion == CohesionLaw::van_der_waals)
-    across = select(M::from_bits(s.attracting), -attraction * wall.normal, none);
+    across = select(M::from_bits(s.attracting), -attraction * kin.normal, none);
   if (laws.tangential != TangentialLaw::none || laws.rolling != RollingLaw::none)
-    torque = select(touching, multiply_add(-arm, cross(wall.normal, f.tangential), f.rolling_torque), none);
+    torque = select(touching, multiply_add(-arm, cross(kin.normal, f.tangential), f.rolling_torque), none);
   const Vec3<P> force = select(touching, f.force, across);
-  store_vectors(force, [&](int lane) -> Vec3d& { return contact_at(lane).force; });
-  store_vectors(torque, [&](int lane) -> Vec3d& { return effect_at(lane).torque; });
-  set_states(s, contacts, count);
+  store_wall_ends(w.ends + first, force, torque, v.pairs.end_forces);
+  if (w.forces) store_columns(force, static_cast<Real*>(w.forces) + axis_index(first, 0));
   if constexpr (kCountsHeat<L>) {
-    PairHeat heat[kLanes];
     const P torn = s.torn != 0 ? tear_heat(c, grain.radius) : P(0);
-    store_heat(s, f, memory, torn, heat);
-    for (std::size_t i = 0; i < count; ++i) {
-      effects[i].heat = heat[i];
-      effects[i].power = dot(contacts[i].force, v.wall_velocities[contacts[i].wall]);
+    if (w.heat) {
+      store_heat(s, f, memory, torn, w.heat + first);
+      dot(simd::converted<double>(force), wall.velocity).store(w.power + first);
     }
   }
+  bits.touching = static_cast<std::uint16_t>(s.touching);
+  bits.attracting = static_cast<std::uint16_t>(s.attracting);
 }
 
+/// Evaluates the groups of contacts with walls [begin, end).
 template <class L, class Real>
-INTERSTICE_FLATTEN void evaluate_walls(const L& laws, const StepView& v, std::span<WallContact> contacts,
-                                       WallEffect* effects) {
+INTERSTICE_FLATTEN void evaluate_walls(const L& laws, const StepView& view, std::size_t begin,
+                                       std::size_t end) {
   const simd::FlushTinyNumbers flush;
-  for (std::size_t first = 0; first < contacts.size(); first += kLanes) {
-    evaluate_wall_group<L, Real>(laws, v, contacts.data() + first, std::min(kLanes, contacts.size() - first),
-                                 effects + first);
-  }
+  const StepView v = view;  // of which the compiler knows that nothing stored changes it
+  for (std::size_t group = begin; group < end; ++group) evaluate_wall_group<L, Real>(laws, v, group);
 }
 
 }  // namespace interstice::dem

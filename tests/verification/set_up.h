@@ -87,7 +87,8 @@ struct ContactNow {
   Vec3d force{0, 0, 0};
 };
 inline ContactNow contact_of(const Simulation& sim) {
-  for (const WallContact& w : sim.wall_contacts().entries) {
+  for (std::size_t k = 0; k < sim.wall_contacts().places(); ++k) {
+    const WallContact w = sim.wall_contacts().at(k);
     if (w.state != ContactState::apart) return {w.state, w.force};
   }
   const PairContacts& p = sim.pair_contacts();

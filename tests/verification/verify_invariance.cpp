@@ -147,7 +147,8 @@ TEST_P(Invariance, TheCollisionIsOne) {
       const auto ids = static_cast<std::size_t>(sim.site(p.a).id + sim.site(p.b).id);
       if (sim.pair_contacts().touching(k)) pairs[ids - 1] = true;
     }
-    for (const WallContact& w : sim.wall_contacts().entries) wall = wall || w.touching();
+    for (std::size_t k = 0; k < sim.wall_contacts().places(); ++k)
+      wall = wall || sim.wall_contacts().at(k).touching();
   }
   EXPECT_TRUE(pairs[0] && pairs[1] && pairs[2] && wall) << pairs[0] << pairs[1] << pairs[2] << wall;
 }
