@@ -146,24 +146,25 @@ std::vector<PairEnds> PairContacts::build_adjacency(const std::vector<GrainSite>
     ++first[pairs_[k].b + 1];
   }
   for (std::size_t s = 1; s < first.size(); ++s) first[s] += first[s - 1];
-  resize_tightly(pair_of_end_, 2 * listed_);
-  std::vector<PairEnds> ends_of_pair(pairs_.size(), {0, 0});
+  // The partner's id above the pair, so that numbers sort as they should.
+  std::vector<std::uint64_t> ends(2 * listed_);
+  const auto end_of = [&](std::uint32_t partner, std::uint32_t pair) {
+    return static_cast<std::uint64_t>(sites[partner].id) << 32 | pair;
+  };
   std::vector<std::uint32_t> next(first.begin(), first.end() - 1);
   for (std::uint32_t k = 0; k < pairs_.size(); ++k) {
     if (!is_listed(k)) continue;
-    pair_of_end_[next[pairs_[k].a]++] = k;
-    pair_of_end_[next[pairs_[k].b]++] = k;
+    ends[next[pairs_[k].a]++] = end_of(pairs_[k].b, k);
+    ends[next[pairs_[k].b]++] = end_of(pairs_[k].a, k);
   }
+  resize_tightly(pair_of_end_, ends.size());
+  std::vector<PairEnds> ends_of_pair(pairs_.size(), {0, 0});
   for_each_block({sites.size(), kSlotsPerBlock}, [&](std::size_t, std::size_t begin, std::size_t end) {
     for (std::size_t s = begin; s < end; ++s) {
-      const auto partner = [&](std::uint32_t pair) {
-        return sites[pairs_[pair].a == s ? pairs_[pair].b : pairs_[pair].a].id;
-      };
-      std::sort(pair_of_end_.begin() + first[s], pair_of_end_.begin() + first[s + 1],
-                [&](std::uint32_t l, std::uint32_t r) { return partner(l) < partner(r); });
+      std::sort(ends.begin() + first[s], ends.begin() + first[s + 1]);
       for (std::uint32_t e = first[s]; e < first[s + 1]; ++e) {
-        PairEnds& ends = ends_of_pair[pair_of_end_[e]];
-        (pairs_[pair_of_end_[e]].a == s ? ends.a : ends.b) = e;
+        const std::uint32_t k = pair_of_end_[e] = static_cast<std::uint32_t>(ends[e]);
+        (pairs_[k].a == s ? ends_of_pair[k].a : ends_of_pair[k].b) = e;
       }
     }
   });

@@ -34,7 +34,9 @@ template <class Real>
 class RowSums {
  public:
   /// How many ends each grain has.
-  explicit RowSums(const std::uint32_t* count) { simd::from_counts<Real, kLanes>(count).store(count_); }
+  explicit RowSums(const std::uint32_t* count) : count_(simd::from_counts<Real, kLanes>(count)) {
+    count_.store(each_);
+  }
   /// One end of every grain.
   void add(const Real* ends) {
     simd::unrolled<kPacks>([&](auto index) {
@@ -65,13 +67,14 @@ class RowSums {
   template <int j>
   Rows count_of() const {
     if constexpr (kEnds == 1) {
-      return Rows(count_[lane_at(j)]);
+      return Rows(each_[lane_at(j)]);  // from memory: registers are scarce
     } else {
-      return select(Rows::M::from_bits(0xff), Rows(count_[lane_at(2 * j)]), Rows(count_[lane_at(2 * j + 1)]));
+      return simd::halves_of<lane_at(2 * j), lane_at(2 * j + 1), kReals>(count_);
     }
   }
 
-  alignas(64) Real count_[kLanes];
+  simd::Pack<Real, kLanes> count_;
+  alignas(64) Real each_[kLanes];
   Rows sums_[kPacks];
 };
 

@@ -8,12 +8,6 @@
 
 namespace interstice::dem {
 
-bool are_near(const GrainSite& a, const GrainSite& b, const SearchSpace& space) {
-  const Vec3d d = separation(a.position(), b.position(), space);
-  const double reach = a.radius + b.radius + space.skin;
-  return dot(d, d) < reach * reach;
-}
-
 namespace {
 
 constexpr std::size_t kRowsPerBlock = 1024;
@@ -23,14 +17,20 @@ PairRef ordered(const std::vector<GrainSite>& sites, std::uint32_t i, std::uint3
   return sites[i].id < sites[j].id ? PairRef{i, j} : PairRef{j, i};
 }
 
+/// A grain as the search passes over it.
+struct Member {
+  double x, y, z, radius;
+  std::uint32_t slot;
+};
+
 /// The grains of one size class in the cells of a dense grid over their own bounding box.
 struct Level {
   double largest = 0;  // radius [m]
   Vec3d lo;
   std::array<double, 3> cell{1, 1, 1};
   std::array<std::int64_t, 3> n{1, 1, 1};
-  std::vector<std::uint32_t> start;    // first member of each cell, and one past the last
-  std::vector<std::uint32_t> members;  // slots, cell by cell
+  std::vector<std::uint32_t> start;  // first member of each cell, and one past the last
+  std::vector<Member> members;       // cell by cell
 
   std::int64_t coordinate(double p, int axis) const {
     return static_cast<std::int64_t>(std::floor((p - lo[axis]) / cell[axis]));
@@ -73,8 +73,9 @@ void size_cells(Level& level, const Box& box, double edge, std::size_t grains, c
   }
 }
 
+/// `place`: of each slot among the members of its level.
 void sort_into_cells(Level& level, const std::vector<GrainSite>& sites,
-                     const std::vector<std::uint32_t>& slots) {
+                     const std::vector<std::uint32_t>& slots, std::vector<std::uint32_t>& place) {
   level.start.assign(static_cast<std::size_t>(level.n[0] * level.n[1] * level.n[2]) + 1, 0);
   std::vector<std::uint32_t> cell_of(slots.size());
   for (std::size_t s = 0; s < slots.size(); ++s) {
@@ -89,12 +90,16 @@ void sort_into_cells(Level& level, const std::vector<GrainSite>& sites,
   for (std::size_t c = 1; c < level.start.size(); ++c) level.start[c] += level.start[c - 1];
   level.members.resize(slots.size());
   std::vector<std::uint32_t> next(level.start.begin(), level.start.end() - 1);
-  for (std::size_t s = 0; s < slots.size(); ++s) level.members[next[cell_of[s]]++] = slots[s];
+  for (std::size_t s = 0; s < slots.size(); ++s) {
+    const GrainSite& site = sites[slots[s]];
+    place[slots[s]] = next[cell_of[s]]++;
+    level.members[place[slots[s]]] = {site.x, site.y, site.z, site.radius, slots[s]};
+  }
 }
 
 /// Classes by halves of the largest radius; empty ones are left out.
 std::vector<Level> build_levels(const std::vector<GrainSite>& sites, const SearchSpace& space,
-                                std::vector<std::uint8_t>& level_of) {
+                                std::vector<std::uint8_t>& level_of, std::vector<std::uint32_t>& place) {
   double largest = 0;
   for (const GrainSite& r : sites) largest = std::max(largest, r.radius);
   std::array<std::vector<std::uint32_t>, kMaxLevels> classes;
@@ -104,6 +109,7 @@ std::vector<Level> build_levels(const std::vector<GrainSite>& sites, const Searc
   }
   std::vector<Level> levels;
   level_of.resize(sites.size());
+  place.resize(sites.size());
   for (const auto& slots : classes) {
     if (slots.empty()) continue;
     Level level;
@@ -112,7 +118,7 @@ std::vector<Level> build_levels(const std::vector<GrainSite>& sites, const Searc
       level_of[s] = static_cast<std::uint8_t>(levels.size());
     }
     size_cells(level, bounds_of(sites, slots), 2 * level.largest + space.skin, slots.size(), space);
-    sort_into_cells(level, sites, slots);
+    sort_into_cells(level, sites, slots, place);
     levels.push_back(std::move(level));
   }
   return levels;
@@ -146,9 +152,17 @@ Span cells_in_reach(const Level& level, double p, double reach, int axis, bool p
   return span;
 }
 
-void search_level(const std::vector<GrainSite>& sites, const SearchSpace& space, const Level& level,
-                  bool own_level, std::uint32_t i, std::vector<PairRef>& found) {
+/// Of the grains of its own class those that a grain is paired with follow it.
+struct SearchedLevel {
+  const Level& level;
+  std::size_t first_member;
+};
+
+void search_level(const std::vector<GrainSite>& sites, const SearchSpace& space, const SearchedLevel& in,
+                  std::uint32_t i, std::vector<PairRef>& found) {
   const GrainSite& grain = sites[i];
+  const Level& level = in.level;
+  const NearTest near(space);
   const double reach = grain.radius + level.largest + space.skin;
   std::array<Span, 3> spans;
   for (int axis = 0; axis < 3; ++axis) {
@@ -156,13 +170,10 @@ void search_level(const std::vector<GrainSite>& sites, const SearchSpace& space,
   }
   const auto visit_row = [&](std::int64_t j, std::int64_t k) {
     for (int r = 0; r < spans[0].count; ++r) {
-      const std::uint32_t begin = level.start[level.index(spans[0].run[r].first, j, k)];
-      const std::uint32_t end = level.start[level.index(spans[0].run[r].second, j, k) + 1];
-      for (std::uint32_t m = begin; m < end; ++m) {
-        const std::uint32_t other = level.members[m];
-        if (own_level && other <= i) continue;  // each pair of a class once
-        if (are_near(grain, sites[other], space)) found.push_back(ordered(sites, i, other));
-      }
+      const std::size_t begin = level.start[level.index(spans[0].run[r].first, j, k)];
+      const std::size_t end = level.start[level.index(spans[0].run[r].second, j, k) + 1];
+      for (std::size_t m = std::max(begin, in.first_member); m < end; ++m)
+        if (near(grain, level.members[m])) found.push_back(ordered(sites, i, level.members[m].slot));
     }
   };
   for (int rk = 0; rk < spans[2].count; ++rk) {
@@ -179,14 +190,16 @@ void search_level(const std::vector<GrainSite>& sites, const SearchSpace& space,
 std::vector<PairRef> find_pairs(const std::vector<GrainSite>& sites, const SearchSpace& space) {
   if (sites.empty()) return {};
   std::vector<std::uint8_t> level_of;
-  const std::vector<Level> levels = build_levels(sites, space, level_of);
+  std::vector<std::uint32_t> place;
+  const std::vector<Level> levels = build_levels(sites, space, level_of, place);
 
   const Blocks blocks{sites.size(), kRowsPerBlock};
   std::vector<std::vector<PairRef>> found(blocks.count());
   for_each_block(blocks, [&](std::size_t b, std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       for (std::size_t l = 0; l <= level_of[i]; ++l) {  // its own class and the coarser ones
-        search_level(sites, space, levels[l], l == level_of[i], static_cast<std::uint32_t>(i), found[b]);
+        const SearchedLevel in{levels[l], l == level_of[i] ? place[i] + std::size_t{1} : 0};
+        search_level(sites, space, in, static_cast<std::uint32_t>(i), found[b]);
       }
     }
   });
@@ -199,10 +212,11 @@ std::vector<PairRef> find_pairs(const std::vector<GrainSite>& sites, const Searc
 }
 
 std::vector<PairRef> find_pairs_brute_force(const std::vector<GrainSite>& sites, const SearchSpace& space) {
+  const NearTest near(space);
   std::vector<PairRef> pairs;
   for (std::uint32_t i = 0; i < sites.size(); ++i) {
     for (std::uint32_t j = i + 1; j < sites.size(); ++j) {
-      if (are_near(sites[i], sites[j], space)) pairs.push_back(ordered(sites, i, j));
+      if (near(sites[i], sites[j])) pairs.push_back(ordered(sites, i, j));
     }
   }
   return pairs;

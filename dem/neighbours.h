@@ -28,9 +28,6 @@ struct SearchSpace {
   }
 };
 
-/// Are the surfaces nearer than the skin?
-bool are_near(const GrainSite& a, const GrainSite& b, const SearchSpace& space);
-
 /// All pairs whose surfaces are nearer than `skin`, in an order that depends on the sites' order alone.
 std::vector<PairRef> find_pairs(const std::vector<GrainSite>& sites, const SearchSpace& space);
 
@@ -50,5 +47,22 @@ inline Vec3d nearest_image(const Vec3d& d, const Vec3d& period) {
 inline Vec3d separation(const Vec3d& a, const Vec3d& b, const SearchSpace& space) {
   return nearest_image(a - b, space.period());
 }
+
+/// Are the surfaces of two grains nearer than the skin?
+class NearTest {
+ public:
+  explicit NearTest(const SearchSpace& space) : period_(space.period()), skin_(space.skin) {}
+
+  template <class A, class B>
+  bool operator()(const A& a, const B& b) const {
+    const Vec3d d = nearest_image({a.x - b.x, a.y - b.y, a.z - b.z}, period_);
+    const double reach = a.radius + b.radius + skin_;
+    return dot(d, d) < reach * reach;
+  }
+
+ private:
+  Vec3d period_;
+  double skin_;
+};
 
 }  // namespace interstice::dem

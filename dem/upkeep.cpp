@@ -21,7 +21,7 @@ constexpr std::size_t kPartsPerThread = 2;
 
 /// Steps for which near pairs shall last, and how many times as long candidates: a refresh takes some five
 /// steps, a search three times that.
-constexpr double kStepsAhead = 100, kCandidatesLast = 4;
+constexpr double kStepsAhead = 100, kCandidatesLast = 6;
 /// Candidates that leave a grain fewer steps than this, and less than this share of its reach, are found
 /// anew.
 constexpr double kLeastSteps = 20, kLeastShare = 0.25;
@@ -194,6 +194,7 @@ void Simulation::find_candidates(const std::vector<GrainSite>& sites, double lon
 void Simulation::refresh(const std::vector<std::uint32_t>& old_slot, const std::vector<GrainSite>& sites) {
   SearchSpace space = search_space();
   space.skin = attraction_;
+  const NearTest near(space);
   std::vector<GrainSite> reaching = sites;
   path_left_.assign(groups_for(sites.size()) * kLanes, 0);
   for (std::size_t s = 0; s < sites.size(); ++s) {
@@ -207,10 +208,8 @@ void Simulation::refresh(const std::vector<std::uint32_t>& old_slot, const std::
   for_each_block(blocks, [&](std::size_t b, std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) {
       const PairRef& c = candidates_[k];
-      if (!are_near(reaching[c.a], reaching[c.b], space)) continue;
-      const std::size_t rank = sleeps(c.a) && sleeps(c.b)                ? 2
-                               : are_near(sites[c.a], sites[c.b], space) ? 0
-                                                                         : 1;
+      if (!near(reaching[c.a], reaching[c.b])) continue;
+      const std::size_t rank = sleeps(c.a) && sleeps(c.b) ? 2 : near(sites[c.a], sites[c.b]) ? 0 : 1;
       by_class[rank][b].push_back(c);
     }
   });

@@ -410,7 +410,13 @@ Pack<U, N> converted(const Pack<T, N>& a) {
   if constexpr (std::is_same_v<U, T>) {
     return a;
   } else if constexpr (kFitsRegister<T, N> && kFitsRegister<U, N>) {
-    return __builtin_convertvector(a.lanes, typename Pack<U, N>::Lanes);
+#ifdef INTERSTICE_AVX512
+    // What the compiler makes of the general form takes four instructions.
+    if constexpr (std::is_same_v<U, double> && N == 8)
+      return _mm512_cvtps_pd(reinterpret_cast<__m256>(a.lanes));
+    else
+#endif
+      return __builtin_convertvector(a.lanes, typename Pack<U, N>::Lanes);
   } else if constexpr (kFitsRegister<U, N>) {  // two registers of doubles to one of floats
     // Not through memory: what is written in two pieces cannot be read as one until it has reached the cache.
     return detail::joined(converted<U>(a.lo).lanes, converted<U>(a.hi).lanes,
@@ -421,6 +427,30 @@ Pack<U, N> converted(const Pack<T, N>& a) {
     return {converted<U>(a.lo), converted<U>(a.hi)};
   }
 }
+namespace detail {
+template <int a, int b, int M, class V, int... I>
+auto two_of(const V& v, const V& w, std::integer_sequence<int, I...>) {
+  return __builtin_shufflevector(v, w, (I < M / 2 ? a : b)...);
+}
+}  // namespace detail
+
+/// M lanes of which the lower half are lane `a` of a pack, the upper half its lane `b`.
+template <int a, int b, int M, class T, int N>
+Pack<T, M> halves_of(const Pack<T, N>& p) {
+  constexpr auto all = std::make_integer_sequence<int, M>{};
+  if constexpr (!kFitsRegister<T, M>) {
+    return {halves_of<a, a, M / 2>(p), halves_of<b, b, M / 2>(p)};
+  } else if constexpr (kFitsRegister<T, N>) {
+    return detail::two_of<a, b, M>(p.lanes, p.lanes, all);
+  } else if constexpr (kFitsRegister<T, N / 2>) {
+    return detail::two_of<a, b, M>(p.lo.lanes, p.hi.lanes, all);
+  } else {
+    static_assert(a == b, "two registers at once are enough");
+    return a < N / 2 ? halves_of<a % (N / 2), b % (N / 2), M>(p.lo)
+                     : halves_of<a % (N / 2), b % (N / 2), M>(p.hi);
+  }
+}
+
 /// Whole numbers as a pack.
 template <class T, int N>
 Pack<T, N> from_counts(const std::uint32_t* counts) {

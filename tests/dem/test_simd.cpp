@@ -157,5 +157,19 @@ TYPED_TEST(Packs, TakeCountsAndOtherPrecisions) {
   }
 }
 
+TYPED_TEST(Packs, TakeTwoLanesForTheirHalves) {
+  using P = Pack<TypeParam, 16>;
+  constexpr int kTaken = 64 / sizeof(TypeParam);
+  TypeParam numbers[16], taken[kTaken];
+  for (int i = 0; i < 16; ++i) numbers[i] = static_cast<TypeParam>(i);
+  const P p = P::load(numbers);
+  unrolled<16>([&](auto lane) {
+    constexpr int a = decltype(lane)::value, b = sizeof(TypeParam) == 4 ? (3 * a + 5) % 16 : a;
+    halves_of<a, b, kTaken>(p).store(taken);
+    for (int i = 0; i < kTaken; ++i)
+      EXPECT_EQ(taken[i], static_cast<TypeParam>(i < kTaken / 2 ? a : b)) << a << ' ' << b << ' ' << i;
+  });
+}
+
 }  // namespace
 }  // namespace interstice::dem::simd
