@@ -20,7 +20,7 @@ namespace interstice::apps {
 namespace {
 
 // Measured on a settled bed (docs/PERFORMANCE.md): rows, lists, springs and results; and one core's rate.
-constexpr double kBytesPerGrain = 600, kParticleStepsPerSecondPerCore = 5e6;
+constexpr double kBytesPerGrain = 600, kParticleStepsPerSecondPerCore = 8e6;
 
 struct CheckArguments {
   std::string scene;
