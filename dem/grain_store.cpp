@@ -79,7 +79,10 @@ void GrainStore::halt(std::size_t s) {
 
 void GrainStore::set_stepping(bool stepping) {
   stepping_ = stepping;
-  if (stepping) accelerations_ = {};
+  if (!stepping) return;
+  accelerations_.clear();
+  if (accelerations_.capacity() > size() + size() / 16)
+    accelerations_.shrink_to_fit();  // grains came one by one
 }
 
 GrainRow GrainStore::row(std::size_t s) const {

@@ -18,8 +18,8 @@ Pairs touching(const Simulation& sim) {
   Pairs pairs;
   for (std::size_t k = 0; k < sim.pair_contacts().places(); ++k) {
     if (!sim.pair_contacts().touching(k)) continue;
-    const auto [a, b] =
-        std::minmax(sim.site(sim.pair_contacts().pair(k).a).id, sim.site(sim.pair_contacts().pair(k).b).id);
+    const PairRef& pair = sim.pair_contacts().pair(k);
+    const auto [a, b] = std::minmax({sim.site(pair.a).id, sim.site(pair.b).id});
     EXPECT_TRUE(pairs.insert({a, b}).second) << "listed twice";
   }
   return pairs;
