@@ -72,10 +72,10 @@ void draw_line(const std::filesystem::path& png, const scene::Line& line, const 
   figure.y_range = {0, 1.02};
   std::vector<double> at;
   for (const auto& center : samples.center) at.push_back(1e3 * center[line.axis]);
-  figure.curves.push_back({voxel_name(f.request), at, voxel::clear_of_walls(samples)});
+  figure.curves.push_back(figures::trimmed({voxel_name(f.request), at, voxel::clear_of_walls(samples)}));
   if (!samples.void_fraction_averaged.empty()) {
-    figure.curves.push_back(
-        {averaged_name(f.request), at, voxel::outside_walls(samples, samples.void_fraction_averaged)});
+    figure.curves.push_back(figures::trimmed(
+        {averaged_name(f.request), at, voxel::outside_walls(samples, samples.void_fraction_averaged)}));
   }
   figures::write_curves(png, {figure}, f.formats);
 }

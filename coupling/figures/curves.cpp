@@ -221,6 +221,17 @@ std::string panel_of(const std::vector<CurveFigure>& panels, std::size_t p, cons
 
 }  // namespace
 
+Curve trimmed(Curve curve) {
+  std::size_t first = 0, last = curve.y.size();
+  while (first < last && std::isnan(curve.y[first])) ++first;
+  while (last > first && std::isnan(curve.y[last - 1])) --last;
+  for (auto* values : {&curve.x, &curve.y}) {
+    values->erase(values->begin() + static_cast<std::ptrdiff_t>(last), values->end());
+    values->erase(values->begin(), values->begin() + static_cast<std::ptrdiff_t>(first));
+  }
+  return curve;
+}
+
 void write_curves(const std::filesystem::path& png, const std::vector<CurveFigure>& panels,
                   const Formats& formats) {
   check(panels);

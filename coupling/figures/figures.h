@@ -45,6 +45,8 @@ struct Curve {
   std::vector<double> x, y;  // NaN breaks the line
   bool steps = false;        // a histogram's outline: x are the middles of its bins
 };
+/// Without what is NaN at either end: an axis need not reach there.
+Curve trimmed(Curve curve);
 struct CurveFigure {
   std::string title, x_label, y_label, note;
   std::vector<Curve> curves;

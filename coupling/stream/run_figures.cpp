@@ -206,10 +206,10 @@ void draw_field(const scene::Field& field, const std::filesystem::path& folder,
     figure.y_label = "void fraction";
     figure.y_range = {{0, 1.02}};
     figure.curves.push_back(
-        {"per voxel (" + length(field.voxel) + ")", at, voxel::clear_of_walls(line)});
+        figures::trimmed({"per voxel (" + length(field.voxel) + ")", at, voxel::clear_of_walls(line)}));
     if (!line.void_fraction_averaged.empty()) {
-      figure.curves.push_back(
-          {averaged_name(field), at, voxel::outside_walls(line, line.void_fraction_averaged)});
+      figure.curves.push_back(figures::trimmed(
+          {averaged_name(field), at, voxel::outside_walls(line, line.void_fraction_averaged)}));
     }
     panels.push_back(std::move(figure));
   }

@@ -134,17 +134,6 @@ void add_slices(std::vector<NamedFigure>& all, const Moment& m) {
        of_averages ? "Difference of averaged void fraction" : "Difference of void fraction");
 }
 
-/// NaN breaks a curve; none begins or ends with it.
-void trim(figures::Curve& curve) {
-  std::size_t first = 0, last = curve.y.size();
-  while (first < last && std::isnan(curve.y[first])) ++first;
-  while (last > first && std::isnan(curve.y[last - 1])) --last;
-  for (auto* values : {&curve.x, &curve.y}) {
-    values->erase(values->begin() + static_cast<std::ptrdiff_t>(last), values->end());
-    values->erase(values->begin(), values->begin() + static_cast<std::ptrdiff_t>(first));
-  }
-}
-
 /// A panel with the column `value` against `at` of one table of A and of B.
 figures::CurveFigure overlay(const Moment& m, const std::filesystem::path& relative, const std::string& at,
                              const std::string& value, double scale) {
@@ -158,8 +147,7 @@ figures::CurveFigure overlay(const Moment& m, const std::filesystem::path& relat
     figures::Curve curve{m.labels[r], table.numbers(at), line_values(table, value)};
     for (double& x : curve.x) x *= 1e3;
     for (double& y : curve.y) y *= scale;
-    trim(curve);
-    panel.curves.push_back(std::move(curve));
+    panel.curves.push_back(figures::trimmed(std::move(curve)));
   }
   return panel;
 }

@@ -155,6 +155,16 @@ TEST_F(Figures, CurvesHaveAllTheirPointsBesideThem) {
   EXPECT_NE(content(folder / "c.dat").find("7 NaN"), std::string::npos);
 }
 
+TEST(Curves, AreTrimmedAtTheirEndsOnly) {
+  const double gap = std::nan("");
+  const figures::Curve curve = figures::trimmed({"a", {1, 2, 3, 4, 5}, {gap, 7, gap, 8, gap}});
+  EXPECT_EQ(curve.x, (std::vector<double>{2, 3, 4}));
+  EXPECT_EQ(curve.y.front(), 7);
+  EXPECT_TRUE(std::isnan(curve.y[1]));
+  EXPECT_EQ(curve.y.back(), 8);
+  EXPECT_TRUE(figures::trimmed({"b", {1, 2}, {gap, gap}}).x.empty());
+}
+
 TEST_F(Figures, CurvesOfNothingOneThingAndEqualThingsAreDrawn) {
   figures::CurveFigure empty;
   empty.title = "nothing";
