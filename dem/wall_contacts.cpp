@@ -1,6 +1,7 @@
 #include "dem/wall_contacts.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "base/parallel.h"
 #include "dem/contacts.h"
@@ -22,7 +23,7 @@ void WallContacts::replace(const std::vector<GrainSite>& sites, const std::vecto
           found[b].push_back({static_cast<std::uint32_t>(s), w});
   });
 
-  WallContacts old(*this);
+  const WallContacts old = std::move(*this);  // lists, bits and springs are made anew below
   place(found, sites.size());
   bits_.assign(places() / kLanes, {});
   if (kept_.sliding) sliding_.reset(kSpringReals * places());
