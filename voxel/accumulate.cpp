@@ -5,11 +5,10 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <bit>
 #include <iterator>
-#include <limits>
 #include <optional>
 
+#include "voxel/block_leaves.h"
 #include "voxel/methods.h"
 #include "voxel/small_spheres.h"
 
@@ -128,137 +127,6 @@ void add_spheres(const Accumulation& what, std::size_t bin, const CellRange& cel
     add_one(what, entry.sphere, sphere, cells, sums.rows);
   }
   add_waiting(what, sums);
-}
-
-std::unique_ptr<Leaf> new_leaf(const CellRange& cells, float background) {
-  const openvdb::Coord origin(static_cast<int>(cells.lo[0]), static_cast<int>(cells.lo[1]),
-                              static_cast<int>(cells.lo[2]));
-  return std::make_unique<Leaf>(origin, background, false);
-}
-
-/// The active cells of a leaf, a byte a row of eight.
-void set_active(Leaf& leaf, const std::uint8_t (&rows)[kBlock * kBlock]) {
-  Leaf::NodeMaskType mask;
-  for (int x = 0; x < kBlock; ++x) {
-    std::uint64_t word = 0;
-    for (int y = 0; y < kBlock; ++y) word |= static_cast<std::uint64_t>(rows[x * kBlock + y]) << (8 * y);
-    mask.getWord<std::uint64_t>(static_cast<openvdb::Index>(x)) = word;
-  }
-  leaf.setValueMask(mask);
-}
-
-/// The leaves of one block in the making.
-struct Leaves {
-  float *solid, *empty, *available = nullptr;
-  double least_void = 0;  // voxels with less count as negative
-  std::uint8_t solid_on[kBlock * kBlock] = {}, any_on[kBlock * kBlock] = {}, wall_on[kBlock * kBlock] = {};
-};
-
-/// One row of eight cells (fewer at the lattice's end): rounds it to the leaves and adds it to the sums.
-/// `wall` is null where there is none.
-void finish_row(const double* solid, const double* wall, int row, int cells, Leaves& leaves,
-                BlockResult& result) {
-  const int at = row * kBlock;
-  std::uint8_t solid_on = 0, any_on = 0, wall_on = 0;
-  for (int k = 0; k < cells; ++k) {
-    const double share = wall ? wall[k] : 0, available = 1 - share, empty = available - solid[k];
-    result.void_min = std::min(result.void_min, empty);
-    result.void_max = std::max(result.void_max, empty);
-    result.negative += empty < leaves.least_void;
-    result.solid += solid[k];
-    result.wall += share;
-    const auto rounded = static_cast<float>(solid[k]);
-    result.written += static_cast<double>(rounded);
-    const bool has_solid = solid[k] != 0, has_wall = share != 0;
-    solid_on |= static_cast<std::uint8_t>(has_solid << k);
-    any_on |= static_cast<std::uint8_t>((has_solid || has_wall) << k);
-    wall_on |= static_cast<std::uint8_t>(has_wall << k);
-    leaves.solid[at + k] = rounded;
-    leaves.empty[at + k] = static_cast<float>(empty);
-    if (wall) leaves.available[at + k] = static_cast<float>(available);
-  }
-  leaves.solid_on[row] = solid_on, leaves.any_on[row] = any_on, leaves.wall_on[row] = wall_on;
-  result.active += std::popcount(any_on);
-}
-
-/// Calls visit(row, i, j) for the rows of a block's cells, numbered as in a leaf.
-template <class Visit>
-void for_rows(const CellRange& cells, const Visit& visit) {
-  for (std::int64_t i = cells.lo[0]; i < cells.hi[0]; ++i)
-    for (std::int64_t j = cells.lo[1]; j < cells.hi[1]; ++j)
-      visit((i - cells.lo[0]) * kBlock + (j - cells.lo[1]), i, j);
-}
-
-/// Where the sums of row (i, j) begin that belong to a block's cells.
-const double* sums_of_row(const CellRows& rows, const CellRange& cells, std::int64_t i, std::int64_t j) {
-  return rows.row(i, j) + (cells.lo[2] - rows.cells().lo[2]);
-}
-
-void keep(const Channels& channels, const double* sums, std::int64_t plane, const double* wall,
-          const CellRange& row, DenseParts& dense) {
-  DenseShares& shares = dense.shares;
-  const CellRange inside = intersection(row, shares.range);  // walls may reach beyond what averages look at
-  for (std::int64_t k = inside.lo[2]; k < inside.hi[2] && !inside.empty(); ++k) {
-    const std::size_t at = shares.index(row.lo[0], row.lo[1], k);
-    const std::int64_t in_row = k - row.lo[2];
-    shares.solid[at] = sums[in_row];
-    if (!shares.available.empty() && wall) shares.available[at] = 1 - wall[in_row];
-    for (std::size_t o = 0; o < dense.parts.size(); ++o)
-      if (!dense.parts[o].empty())
-        dense.parts[o][at] = windowed_part_of(channels.outputs[o], channels, sums + in_row, plane);
-  }
-}
-
-/// Rounds one quantity of a block's cells to its leaf, with values where there is solid; a mask has them
-/// where it is 1. Returns the sum of its parts.
-double finish_quantity(const Output& output, const CellRange& cells, const CellRows& rows, Leaf& leaf) {
-  float* values = leaf.buffer().data();
-  std::uint8_t on[kBlock * kBlock] = {};
-  const bool per_solid = output.quantity.per_solid, mask = output.reading == Reading::mask;
-  const double sum = with_part_of(output, rows.plane(), [&](const auto& part) {
-    double total = 0;
-    for_rows(cells, [&](std::int64_t row, std::int64_t i, std::int64_t j) {
-      const double* sums = sums_of_row(rows, cells, i, j);
-      for (std::int64_t k = 0; k < cells.size(2); ++k) {
-        const double own = part(sums + k);
-        const bool has = sums[k] != 0 && !(mask && own == 0);
-        on[row] |= static_cast<std::uint8_t>(has << k);
-        total += has ? own : 0.0;
-        values[row * kBlock + k] = has ? static_cast<float>(per_solid ? own / sums[k] : own) : 0.0f;
-      }
-    });
-    return total;
-  });
-  set_active(leaf, on);
-  return sum;
-}
-
-/// Rounds a block's cells to leaves and adds up what the field's sums need, in double.
-void finish_block(const Accumulation& what, const CellRange& cells, const double* walls, const CellRows& rows,
-                  BlockResult& result) {
-  result.solid_leaf = new_leaf(cells, 0.0f);
-  result.void_leaf = new_leaf(cells, 1.0f);
-  if (walls) result.available_leaf = new_leaf(cells, 1.0f);
-  Leaves leaves;
-  leaves.least_void = negative_below(what.request.precision);
-  leaves.solid = result.solid_leaf->buffer().data();
-  leaves.empty = result.void_leaf->buffer().data();
-  if (walls) leaves.available = result.available_leaf->buffer().data();
-  result.void_min = std::numeric_limits<double>::infinity(), result.void_max = -result.void_min;
-  for_rows(cells, [&](std::int64_t row, std::int64_t i, std::int64_t j) {
-    const double* sums = sums_of_row(rows, cells, i, j);
-    const double* wall = walls ? walls + row * kBlock : nullptr;
-    finish_row(sums, wall, static_cast<int>(row), static_cast<int>(cells.size(2)), leaves, result);
-    const CellRange in_row{{i, j, cells.lo[2]}, {i + 1, j + 1, cells.hi[2]}};
-    if (what.dense) keep(what.channels, sums, rows.plane(), wall, in_row, *what.dense);
-  });
-  set_active(*result.solid_leaf, leaves.solid_on);
-  set_active(*result.void_leaf, leaves.any_on);
-  if (walls) set_active(*result.available_leaf, leaves.wall_on);
-  for (const Output& output : what.channels.outputs) {
-    result.quantity_leaves.push_back(new_leaf(cells, 0.0f));
-    result.parts.push_back(finish_quantity(output, cells, rows, *result.quantity_leaves.back()));
-  }
 }
 
 /// The walls' shares of a block's cells, in the leaf's own order.
