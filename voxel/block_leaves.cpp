@@ -1,10 +1,9 @@
 #include "voxel/block_leaves.h"
 
 #include <algorithm>
-#include <limits>
-#include <type_traits>
 
 #include "voxel/methods.h"
+#include "voxel/round_rows.h"
 
 namespace interstice::voxel {
 
@@ -27,75 +26,6 @@ void set_active(Leaf& leaf, const std::uint8_t (&rows)[kBlock * kBlock]) {
   leaf.setValueMask(mask);
 }
 
-/// Sums and extremes over the rows of a block, by cell of a row: eight at a time in one register.
-struct RowSums {
-  double solid[kBlock] = {}, wall[kBlock] = {}, written[kBlock] = {};
-  double void_min[kBlock], void_max[kBlock];
-  std::int64_t negative[kBlock] = {};
-
-  RowSums() {
-    std::fill_n(void_min, kBlock, std::numeric_limits<double>::infinity());
-    std::fill_n(void_max, kBlock, -std::numeric_limits<double>::infinity());
-  }
-};
-
-/// The leaves of one block in the making.
-struct Leaves {
-  float *solid, *empty, *available = nullptr;
-  double least_void = 0;  // voxels with less count as negative
-  std::uint8_t solid_on[kBlock * kBlock] = {}, any_on[kBlock * kBlock] = {}, wall_on[kBlock * kBlock] = {};
-};
-
-/// Bit k says whether number k is not zero.
-template <class Count>
-std::uint8_t nonzero(const double* numbers, Count count) {
-  unsigned bits = 0;
-  for (int k = 0; k < count; ++k) bits |= (numbers[k] != 0 ? 1u : 0u) << k;
-  return static_cast<std::uint8_t>(bits);
-}
-
-/// One row of `cells` (a constant where there are eight): rounds it to the leaves and adds it to the sums.
-/// `wall` is read where there are walls.
-template <bool kWalls, class Count>
-void finish_row(const double* solid, const double* wall, int row, Count cells, Leaves& leaves,
-                RowSums& sums) {
-  const int at = row * kBlock;
-  float *solid_to = leaves.solid + at, *empty_to = leaves.empty + at;
-  for (int k = 0; k < cells; ++k) {
-    const double available = kWalls ? 1 - wall[k] : 1.0, empty = available - solid[k];
-    const auto rounded = static_cast<float>(solid[k]);
-    sums.solid[k] += solid[k];
-    sums.written[k] += static_cast<double>(rounded);
-    sums.void_min[k] = std::min(sums.void_min[k], empty);
-    sums.void_max[k] = std::max(sums.void_max[k], empty);
-    sums.negative[k] += empty < leaves.least_void ? 1 : 0;
-    solid_to[k] = rounded;
-    empty_to[k] = static_cast<float>(empty);
-  }
-  leaves.any_on[row] = leaves.solid_on[row] = nonzero(solid, cells);
-  if constexpr (kWalls) {
-    for (int k = 0; k < cells; ++k) {
-      sums.wall[k] += wall[k];
-      leaves.available[at + k] = static_cast<float>(1 - wall[k]);
-    }
-    leaves.wall_on[row] = nonzero(wall, cells);
-    leaves.any_on[row] |= leaves.wall_on[row];
-  }
-}
-
-template <bool kWalls>
-void finish_rows(const CellRange& cells, const double* walls, const CellRows& rows, Leaves& leaves,
-                 RowSums& sums) {
-  for_rows(cells, [&](std::int64_t row, std::int64_t i, std::int64_t j) {
-    const double *solid = sums_of_row(rows, cells, i, j), *wall = kWalls ? walls + row * kBlock : nullptr;
-    if (cells.size(2) == kBlock)
-      finish_row<kWalls>(solid, wall, static_cast<int>(row), std::integral_constant<int, kBlock>(), leaves,
-                         sums);
-    else
-      finish_row<kWalls>(solid, wall, static_cast<int>(row), static_cast<int>(cells.size(2)), leaves, sums);
-  });
-}
-
 /// Adds the sums of all eight up, in their order.
 void add_up(const RowSums& sums, BlockResult& result) {
   result.void_min = *std::min_element(sums.void_min, sums.void_min + kBlock);
@@ -104,7 +34,7 @@ void add_up(const RowSums& sums, BlockResult& result) {
     result.solid += sums.solid[k];
     result.wall += sums.wall[k];
     result.written += sums.written[k];
-    result.negative += sums.negative[k];
+    result.negative += static_cast<std::int64_t>(sums.negative[k]);
   }
 }
 
@@ -162,21 +92,25 @@ void finish_block(const Accumulation& what, const CellRange& cells, const double
                   BlockResult& result) {
   result.solid_leaf = new_leaf(cells, 0.0f);
   result.void_leaf = new_leaf(cells, 1.0f);
-  Leaves leaves;
+  LeafRows leaves;
   leaves.least_void = negative_below(what.request.precision);
   leaves.solid = result.solid_leaf->buffer().data();
   leaves.empty = result.void_leaf->buffer().data();
-  RowSums sums;
   if (walls) {
     result.available_leaf = new_leaf(cells, 1.0f);
     leaves.available = result.available_leaf->buffer().data();
-    finish_rows<true>(cells, walls, rows, leaves, sums);
-    set_active(*result.available_leaf, leaves.wall_on);
-  } else {
-    finish_rows<false>(cells, walls, rows, leaves, sums);
   }
+  RowSums sums;
+  round_rows(
+      {sums_of_row(rows, cells, cells.lo[0], cells.lo[1]),
+       rows.stride_i(),
+       rows.stride_j(),
+       {static_cast<int>(cells.size(0)), static_cast<int>(cells.size(1)), static_cast<int>(cells.size(2))},
+       walls},
+      leaves, sums);
   set_active(*result.solid_leaf, leaves.solid_on);
   set_active(*result.void_leaf, leaves.any_on);
+  if (walls) set_active(*result.available_leaf, leaves.wall_on);
   result.active = static_cast<std::int64_t>(result.void_leaf->onVoxelCount());
   add_up(sums, result);
   if (what.dense) keep_block(what, cells, walls, rows);

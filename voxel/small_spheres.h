@@ -33,6 +33,9 @@ class CellRows {
   const CellRange& cells() const { return cells_; }
   /// From a number of one channel to the same cell's in the next.
   std::int64_t plane() const { return plane_; }
+  /// From a row to the next along x, and along y.
+  std::int64_t stride_i() const { return cells_.size(1) * stride_; }
+  std::int64_t stride_j() const { return stride_; }
   /// Cell (i, j, cells().lo[2]) of channel 0; the row goes on along z.
   double* row(std::int64_t i, std::int64_t j) {
     return values_.data() + ((i - cells_.lo[0]) * cells_.size(1) + (j - cells_.lo[1])) * stride_ + kRoom;
