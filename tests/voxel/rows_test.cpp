@@ -54,7 +54,7 @@ void expect_as_cell_by_cell(const Given& given, bool walls) {
         const double left = (1 - w) - s;
         ASSERT_EQ(solid[at], static_cast<float>(s));
         ASSERT_EQ(empty[at], static_cast<float>(left));
-        if (walls) ASSERT_EQ(available[at], static_cast<float>(1 - w));
+        ASSERT_EQ(available[at], walls ? static_cast<float>(1 - w) : -1);
         ASSERT_EQ(leaves.solid_on[row] >> k & 1, s != 0);
         ASSERT_EQ(leaves.wall_on[row] >> k & 1, w != 0);
         ASSERT_EQ(leaves.any_on[row] >> k & 1, s != 0 || w != 0);
