@@ -46,39 +46,59 @@ struct Inside {
   std::vector<double> each;  // [m^3] per sphere, where asked for
 };
 
+double ball_volume(double radius) { return 4 * std::numbers::pi / 3 * (radius * radius * radius); }
+
 /// Volume [m^3] of the sphere inside the box; nothing where it does not touch the box.
 std::optional<double> clipped_volume(const Lattice& lattice, const PlacedSphere& sphere) {
   const CellRange cells = bounding_cells(lattice, sphere), box = all_cells(lattice);
   bool inside = true;
   for (int axis = 0; axis < 3; ++axis)
     inside = inside && cells.lo[axis] >= box.lo[axis] && cells.hi[axis] <= box.hi[axis];
-  if (inside) return 4 * std::numbers::pi / 3 * (sphere.radius * sphere.radius * sphere.radius);
+  if (inside) return ball_volume(sphere.radius);
   if (!touches(lattice, sphere, box)) return {};
   return sphere_range_volume(lattice, sphere, box);
 }
 
+/// The same of all images of a sphere together.
+std::optional<double> images_volume(const Lattice& lattice, const PlacedSphere& sphere,
+                                    const std::array<bool, 3>& periodic) {
+  const ImageRange images = images_of(lattice, sphere, periodic);
+  std::optional<double> volume;
+  std::array<std::int32_t, 3> m;
+  for (m[0] = images.lo[0]; m[0] <= images.hi[0]; ++m[0])
+    for (m[1] = images.lo[1]; m[1] <= images.hi[1]; ++m[1])
+      for (m[2] = images.lo[2]; m[2] <= images.hi[2]; ++m[2])
+        if (const auto part = clipped_volume(lattice, moved(sphere, lattice, m)))
+          volume = volume.value_or(0) + *part;
+  return volume;
+}
+
+/// Is all of the sphere inside the box, by more than roundings? Most are, and need no cells to tell.
+bool well_inside(const Box& box, const Vec3d& center, double radius) {
+  bool inside = true;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double room = radius + 1e-9 * (box.hi[axis] - box.lo[axis]);
+    inside &= center[axis] - box.lo[axis] > room && box.hi[axis] - center[axis] > room;
+  }
+  return inside;
+}
+
 Inside spheres_inside(const SpheresView& spheres, const FieldRequest& request, bool each) {
   const Lattice& lattice = request.lattice;
+  const Box box = lattice.box();
   const Blocks blocks{spheres.count, 4096};
   Inside all;
   if (each) all.each.resize(spheres.count);
   std::vector<Inside> partial(blocks.count());
   for_each_block(blocks, [&](std::size_t b, std::size_t begin, std::size_t end) {
     for (std::size_t s = begin; s < end; ++s) {
-      const PlacedSphere sphere = place(lattice, spheres, s);
-      const ImageRange images = images_of(lattice, sphere, request.periodic);
-      double volume = 0;
-      bool touching = false;
-      std::array<std::int32_t, 3> m;
-      for (m[0] = images.lo[0]; m[0] <= images.hi[0]; ++m[0])
-        for (m[1] = images.lo[1]; m[1] <= images.hi[1]; ++m[1])
-          for (m[2] = images.lo[2]; m[2] <= images.hi[2]; ++m[2]) {
-            const std::optional<double> part = clipped_volume(lattice, moved(sphere, lattice, m));
-            volume += part.value_or(0);
-            touching = touching || part.has_value();
-          }
+      const double r = spheres.radius[s];
+      std::optional<double> inside = ball_volume(r);
+      if (!well_inside(box, {spheres.x[s], spheres.y[s], spheres.z[s]}, r))
+        inside = images_volume(lattice, place(lattice, spheres, s), request.periodic);
+      const double volume = inside.value_or(0);
       if (each) all.each[s] = volume;
-      partial[b].particles += touching;
+      partial[b].particles += inside.has_value();
       partial[b].volume.add(volume);
       partial[b].mass.add(volume * (spheres.density ? spheres.density[s] : request.density));
     }

@@ -66,7 +66,7 @@ void check_lattice(const Lattice& lattice);
 
 /// floor(value) as an index, kept within +-2^60 so that no coordinate, however absurd, overflows.
 inline std::int64_t floor_index(double value) {
-  return static_cast<std::int64_t>(std::floor(std::clamp(value, -0x1p60, 0x1p60)));
+  return static_cast<std::int64_t>(std::floor(std::min(std::max(value, -0x1p60), 0x1p60)));
 }
 
 /// Index of the cell along `axis` that holds the coordinate `at` [m]: on a face (within 1e-9 of a cell), the
