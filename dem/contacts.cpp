@@ -44,8 +44,9 @@ struct OldEnds {
 
 }  // namespace
 
-PairContacts::PairContacts(const KeptMemories& kept, Precision precision)
+PairContacts::PairContacts(const KeptMemories& kept, Precision precision, const Rates& rates)
     : kept_(kept),
+      rates_(rates),
       sliding_(precision),
       rolling_(precision),
       forces_(precision),
@@ -161,7 +162,13 @@ std::vector<PairEnds> PairContacts::build_adjacency(const std::vector<GrainSite>
   std::vector<PairEnds> ends_of_pair(pairs_.size(), {0, 0});
   for_each_block({sites.size(), kSlotsPerBlock}, [&](std::size_t, std::size_t begin, std::size_t end) {
     for (std::size_t s = begin; s < end; ++s) {
-      std::sort(ends.begin() + first[s], ends.begin() + first[s + 1]);
+      const auto own = ends.begin() + first[s], own_end = ends.begin() + first[s + 1];
+      std::sort(own, own_end);
+      if (rates_.two() && !rates_.is_quick(sites[s].radius))
+        std::stable_partition(own, own_end, [&](std::uint64_t e) {
+          const PairRef& p = pairs_[static_cast<std::uint32_t>(e)];
+          return rates_.is_quick(sites[p.a == s ? p.b : p.a].radius);
+        });
       for (std::uint32_t e = first[s]; e < first[s + 1]; ++e) {
         const std::uint32_t k = pair_of_end_[e] = static_cast<std::uint32_t>(ends[e]);
         (pairs_[k].a == s ? ends_of_pair[k].a : ends_of_pair[k].b) = e;

@@ -14,6 +14,7 @@
 #include "dem/end_places.h"
 #include "dem/grains.h"
 #include "dem/neighbours.h"
+#include "dem/rates.h"
 #include "dem/springs.h"
 #include "dem/sweep.h"
 
@@ -44,7 +45,7 @@ struct PairView {
 
 class PairContacts {
  public:
-  PairContacts(const KeptMemories& kept, Precision precision);
+  PairContacts(const KeptMemories& kept, Precision precision, const Rates& rates = {});
 
   /// Takes over a new list, its pairs in the order of their classes; states and springs move with them.
   /// `old_slot[s]` is where the grain now in slot s stood when the present list was made (or kNoSlot); empty:
@@ -68,8 +69,8 @@ class PairContacts {
   void set_touching(std::size_t k, const TangentialSpring<double>& sliding,
                     const TangentialSpring<double>& rolling);
 
-  /// The pairs of the grain in `slot`, by ascending id of the partner; none for a grain added since the list
-  /// was made.
+  /// The pairs of the grain in `slot`, quick ones first, each by ascending id of the partner; none for a
+  /// grain added since the list was made.
   auto of(std::size_t slot) const {
     const auto known =
         slot + 1 < first_end_.size()
@@ -107,6 +108,7 @@ class PairContacts {
   std::vector<PairEnds> build_adjacency(const std::vector<GrainSite>& sites);
 
   KeptMemories kept_;
+  Rates rates_;
   Sweep sweep_;
   std::size_t listed_ = 0;
   LargeVector<PairRef> pairs_;

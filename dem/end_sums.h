@@ -12,9 +12,9 @@ struct EndSums {
   Vec3<P> force, torque;
 };
 
-/// Adds the ends beyond those collected by lanes.
+/// Adds the ends beyond those collected by lanes: of each grain's `count` the first `taken`.
 template <class Real>
-void add_rest(const Real* ends, const EndRows& rows, const std::uint32_t* count,
+void add_rest(const Real* ends, const EndRows& rows, const std::uint32_t* count, const std::uint32_t* taken,
               EndSums<simd::Pack<Real, kLanes>>& sums) {
   using P = simd::Pack<Real, kLanes>;
   P* const packs[6] = {&sums.force.x,  &sums.force.y,  &sums.force.z,
@@ -24,7 +24,7 @@ void add_rest(const Real* ends, const EndRows& rows, const std::uint32_t* count,
   const Real* end = ends + kEndReals * rows.rest();
   for (std::size_t lane = 0; lane < kLanes; ++lane) {
     for (std::uint32_t k = rows.ranks; k < count[lane]; ++k, end += kEndReals)
-      for (std::size_t j = 0; j < 6; ++j) columns[j][lane] += end[j < 3 ? j : j + 1];
+      for (std::size_t j = 0; j < 6 && k < taken[lane]; ++j) columns[j][lane] += end[j < 3 ? j : j + 1];
   }
   for (std::size_t j = 0; j < 6; ++j) *packs[j] = P::load(columns[j]);
 }
@@ -88,7 +88,20 @@ EndSums<simd::Pack<Real, kLanes>> end_sums(const Real* ends, const EndRows& rows
   for (std::uint32_t k = 0; k < rows.full; ++k, end += rank) sums.add(end);
   for (std::uint32_t k = rows.full; k < rows.ranks; ++k, end += rank) sums.add(end, k);
   auto all = sums.lanes();
-  if (rows.beyond > 0) add_rest(ends, rows, count, all);
+  if (rows.beyond > 0) add_rest(ends, rows, count, count, all);
+  return all;
+}
+
+/// Sums the first ends of each grain: `taken` of its `count`, nowhere more than `most`.
+template <class Real>
+EndSums<simd::Pack<Real, kLanes>> end_sums(const Real* ends, const EndRows& rows, const std::uint32_t* count,
+                                           const std::uint32_t* taken, std::uint32_t most) {
+  RowSums<Real> sums(taken);
+  const Real* end = ends + kEndReals * rows.first;
+  const std::uint32_t ranks = std::min(rows.ranks, most);
+  for (std::uint32_t k = 0; k < ranks; ++k, end += kEndReals * kLanes) sums.add(end, k);
+  auto all = sums.lanes();
+  if (most > rows.ranks) add_rest(ends, rows, count, taken, all);
   return all;
 }
 

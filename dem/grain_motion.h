@@ -46,6 +46,41 @@ simd::Quads<Real, kLanes> quads(const Vec3<Each>& v, const Each& fourth) {
   return {w.x, w.y, w.z, simd::converted<Real>(fourth)};
 }
 
+/// Where a group's grains are; step 0.
+template <class Real>
+GroupStep load_sites(const PairRow<Real>* rows) {
+  simd::QuadLoader<kLanes> sites;
+  simd::unrolled<kLanes>([&](auto lane) {
+    constexpr int i = decltype(lane)::value;
+    sites.template load<i>(&rows[i].x);
+  });
+  const auto site = sites.columns();
+  return {{site[0], site[1], site[2]}, {Each(0), Each(0), Each(0)}, site[3]};
+}
+
+struct AllLanes {
+  constexpr bool has(int) const { return true; }
+};
+struct SomeLanes {
+  std::uint32_t lanes;
+  bool has(int lane) const { return (lanes >> lane & 1) != 0; }
+};
+
+/// Writes rows of some lanes.
+template <class Real, class Lanes>
+void store_rows(const GroupStep& at, const Vec3<Each>& velocity, const Vec3<Each>& spin,
+                const Each& inverse_mass, PairRow<Real>* rows, const Lanes& lanes) {
+  const auto places = quads<double>(at.position, at.radius);
+  const simd::OctStorer<Real, kLanes> motion(quads<Real>(velocity, inverse_mass),
+                                             quads<Real>(spin, at.radius));
+  simd::unrolled<kLanes>([&](auto lane) {
+    constexpr int i = decltype(lane)::value;
+    if (!lanes.has(i)) return;
+    places.template store<i>(&rows[i].x);
+    motion.template store<i>(&rows[i].vx);
+  });
+}
+
 /// Moves a group on, and predicts its velocities.
 template <class Real>
 GroupStep begin_motion(PairRow<Real>* rows, GroupMotion& m, const GroupState& now, double dt) {
@@ -53,25 +88,11 @@ GroupStep begin_motion(PairRow<Real>* rows, GroupMotion& m, const GroupState& no
   const Vec3<Each> w = half_step(now.spin, now.angular, 0.5 * dt);
   store(u, m.vx, m.vy, m.vz);
   store(w, m.wx, m.wy, m.wz);
-  simd::QuadLoader<kLanes> sites;
-  simd::unrolled<kLanes>([&](auto lane) {
-    constexpr int i = decltype(lane)::value;
-    sites.template load<i>(&rows[i].x);
-  });
-  const auto site = sites.columns();
-  GroupStep moved;
+  GroupStep moved = load_sites(rows);
   moved.step = Each(dt) * u;
-  moved.position = Vec3<Each>{site[0], site[1], site[2]} + moved.step;
-  moved.radius = site[3];
-  const auto places = quads<double>(moved.position, moved.radius);
-  const simd::OctStorer<Real, kLanes> motion(
-      quads<Real>(half_step(u, now.acceleration, 0.5 * dt), Each::load(m.inverse_mass)),
-      quads<Real>(half_step(w, now.angular, 0.5 * dt), moved.radius));
-  simd::unrolled<kLanes>([&](auto lane) {
-    constexpr int i = decltype(lane)::value;
-    places.template store<i>(&rows[i].x);
-    motion.template store<i>(&rows[i].vx);
-  });
+  moved.position = moved.position + moved.step;
+  store_rows(moved, half_step(u, now.acceleration, 0.5 * dt), half_step(w, now.angular, 0.5 * dt),
+             Each::load(m.inverse_mass), rows, AllLanes());
   return moved;
 }
 

@@ -53,7 +53,8 @@ struct alignas(64) GroupMotion {
 
 /// At the present time, kept between steps only.
 struct GrainAcceleration {
-  Vec3d linear, angular;  // [m/s^2], [rad/s^2]
+  Vec3d linear, angular;                              // [m/s^2], [rad/s^2]; with two rates those of beats
+  Vec3d slow_linear{0, 0, 0}, slow_angular{0, 0, 0};  // those of whole steps (rates.h)
 };
 
 struct GrainLabel {

@@ -50,6 +50,10 @@ SavedState Simulation::save() const {
     append(grains, g.spin());
     append(grains, a.linear);
     append(grains, a.angular);
+    if (options_.rates.two()) {
+      append(s.real["slow_accelerations"], a.slow_linear);
+      append(s.real["slow_accelerations"], a.slow_angular);
+    }
     grains.insert(grains.end(), {g.radius, g.mass});
     labels.insert(labels.end(), {g.id, g.material, g.layer});
     if (rest_) {
@@ -109,6 +113,7 @@ void Simulation::restore(const SavedState& s) {
                 {vec_at(grains, at + 9), vec_at(grains, at + 12)});
   }
   if (rest_) restore_rests(s);
+  if (options_.rates.two()) restore_slow_accelerations(s);
   const auto& walls = array_of(s.real, "walls");
   const auto& since = array_of(s.integer, "walls_since");
   if (since.size() != motion_of_wall_.size() || walls.size() != kRealsPerWall * since.size()) {
@@ -127,6 +132,19 @@ void Simulation::restore(const SavedState& s) {
 }
 
 /// Of grains by ascending id, before they are put in another order.
+void Simulation::restore_slow_accelerations(const SavedState& s) {
+  if (grains_.size() == 0) return;
+  const auto& slow = array_of(s.real, "slow_accelerations");
+  if (slow.size() != 6 * grains_.size()) {
+    throw InputError("checkpoint: arrays of unequal length; start the run anew");
+  }
+  for (std::size_t i = 0; i < grains_.size(); ++i) {
+    grains_.accelerations()[i].slow_linear = vec_at(slow, 6 * i);
+    grains_.accelerations()[i].slow_angular = vec_at(slow, 6 * i + 3);
+  }
+}
+
+/// The same.
 void Simulation::restore_rests(const SavedState& s) {
   doubt_ = true;
   if (grains_.size() == 0) return;

@@ -13,9 +13,22 @@ namespace {
 /// Ids and slots are kept in 32 bits, of which one number means none.
 constexpr std::int64_t kMostGrains = PairContacts::kNoSlot;
 
-Vec3d offset_at(const Vec3d& offset, const Vec3d& velocity, std::int64_t steps, double dt) {
-  return offset + (static_cast<double>(steps) * dt) * velocity;
+Vec3d offset_at(const Vec3d& offset, const Vec3d& velocity, double steps, double dt) {
+  return offset + (steps * dt) * velocity;
 }
+
+void check_rates(const SimulationOptions& options) {
+  const Rates& r = options.rates;
+  if (r.beats < 1 || !(r.quick_below >= 0))
+    throw InputError("two rates: there must be at least one beat a step, and the limit a radius in metres");
+  if (r.two() && options.energies)
+    throw InputError("two rates of steps: energies cannot be kept; give all grains the same step");
+  if (r.two() && options.sleep_tolerance > 0)
+    throw InputError("two rates of steps: grains cannot sleep; choose one of the two");
+}
+
+/// None, where all grains take the same step.
+Rates used_rates(const SimulationOptions& options) { return options.rates.two() ? options.rates : Rates{}; }
 
 KeptMemories kept_memories(const Laws& laws, const SimulationOptions& options) {
   return {keeps_spring(laws), keeps_rolling_spring(laws), options.energies};
@@ -27,12 +40,14 @@ Simulation::Simulation(Model model, double time_step, const SimulationOptions& o
     : model_(std::move(model)),
       dt_(time_step),
       options_(options),
+      beat_(time_step / std::max(1, options.rates.beats)),
       kernels_(find_kernels(model_.laws, options.precision, options.energies)),
       motion_of_wall_(model_.walls.size()),
       wall_velocities_(model_.walls.size()),
       grains_(options.precision, options.sleep_tolerance > 0),
-      pair_contacts_(kept_memories(model_.laws, options), options.precision),
-      wall_contacts_(kept_memories(model_.laws, options), options.precision) {
+      pair_contacts_(kept_memories(model_.laws, options), options.precision, used_rates(options)),
+      wall_contacts_(kept_memories(model_.laws, options), options.precision, used_rates(options)) {
+  check_rates(options_);
   if (!(dt_ > 0) || !std::isfinite(dt_)) throw InputError("time step: must be positive and finite");
   for (std::size_t a = 0; a < model_.materials.size(); ++a) {
     for (std::size_t b = 0; b < model_.materials.size(); ++b) {
@@ -84,37 +99,52 @@ void Simulation::add_grains(std::span<const NewGrain> grains) {
                        g.spin.z,     next_id_++,   g.layer,      g.material};
     // The first step's acceleration is gravity alone: exact for a grain in flight, first order for one in
     // contact.
-    grains_.add(row, {model_.gravity, {0, 0, 0}});
+    grains_.add(row, first_acceleration(g.radius));
     if (options_.energies) energies_.emplace_back().inserted = kinetic_energy(row);
   }
   list_valid_ = list_valid_ && grains.empty();
 }
 
+GrainAcceleration Simulation::first_acceleration(double radius) const {
+  const Vec3d none{0, 0, 0};
+  if (options_.rates.two() && !options_.rates.is_quick(radius)) return {none, none, model_.gravity, none};
+  return {model_.gravity, none};
+}
+
 void Simulation::set_wall_velocity(std::size_t wall, const Vec3d& velocity) {
   WallMotion& m = motion_of_wall_[wall];
-  m.offset = offset_at(m.offset, m.velocity, step_ - m.since, dt_);
+  m.offset = offset_at(m.offset, m.velocity, static_cast<double>(step_ - m.since), dt_);
   m.since = step_;
   if (!(m.velocity == velocity)) wake_all();
   m.velocity = velocity;
   wall_velocities_[wall] = velocity;
 }
 
-void Simulation::place_walls() {
+/// Where they are at the present step, or so many beats after it.
+void Simulation::place_walls(int beat) {
   for (std::size_t w = 0; w < walls_.size(); ++w) {
     const WallMotion& m = motion_of_wall_[w];
-    walls_[w] = translated(model_.walls[w].shape, offset_at(m.offset, m.velocity, step_ - m.since, dt_));
+    const double steps =
+        static_cast<double>(step_ - m.since) + static_cast<double>(beat) / options_.rates.beats;
+    walls_[w] = translated(model_.walls[w].shape, offset_at(m.offset, m.velocity, steps, dt_));
   }
 }
 
 void Simulation::advance(std::int64_t steps) {
   for (std::int64_t s = 0; s < steps; ++s) {
+    const bool two_rates = options_.rates.two();
     if (!begun_) begin_step();
+    if (two_rates) finish_beats();
     ++step_;
     begun_ = false;
     place_walls();
     update_lists();
     if (rest_) tend_sleepers();
-    evaluate_and_move(s + 1 < steps);
+    if (two_rates) {
+      evaluate_and_move_rated(s + 1 < steps);
+    } else {
+      evaluate_and_move(s + 1 < steps);
+    }
   }
 }
 
@@ -139,7 +169,8 @@ void Simulation::take_report(const std::vector<PassReport>& reports) {
   }
   begun_ = true;
   grains_.set_stepping(true);
-  if (left) remove_leavers();
+  left_ = left_ || left;
+  if (left_ && !options_.rates.two()) remove_leavers();
 }
 
 bool Simulation::inside(const Vec3d& position) const {
@@ -162,6 +193,7 @@ void Simulation::remove_leavers() {
   }
   lost_ += static_cast<std::int64_t>(grains_.size() - kept.size());
   grains_.take(kept);
+  left_ = false;
   list_valid_ = false;
   doubt_ = true;
 }
@@ -176,7 +208,8 @@ std::size_t Simulation::bytes() const {
   return grains_.bytes() + pair_contacts_.bytes() + wall_contacts_.bytes() +
          candidates_.capacity() * sizeof(PairRef) + reach_.capacity() * sizeof(float) +
          path_left_.capacity() * sizeof(double) + built_ids_.capacity() * sizeof(std::uint32_t) +
-         sleepers_.bytes() + energies_.capacity() * sizeof(GrainEnergy);
+         sleepers_.bytes() + quick_.bytes() + slow_.capacity() * sizeof(GroupPull) +
+         energies_.capacity() * sizeof(GrainEnergy);
 }
 
 std::vector<std::uint32_t> Simulation::slots_by_id() const {

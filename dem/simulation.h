@@ -21,6 +21,7 @@
 #include "dem/kernels/kernels.h"
 #include "dem/model.h"
 #include "dem/neighbours.h"
+#include "dem/rates.h"
 #include "dem/reals.h"
 #include "dem/sleepers.h"
 #include "dem/wall_contacts.h"
@@ -35,6 +36,8 @@ struct SimulationOptions {
   /// Grains at rest sleep (sleepers.h), and wake when forces on them are out of balance by this share of
   /// their weight; 0: none sleeps.
   double sleep_tolerance = 0;
+  /// Small grains take shorter steps (rates.h).
+  Rates rates{};
 };
 
 /// Everything that a run must keep to go on with the same bits: named arrays.
@@ -46,7 +49,7 @@ struct SavedState {
 class Simulation {
  public:
   /// Throws InputError when the model cannot be simulated (a periodic axis shorter than two grains is found
-  /// later, when the grains are known), or grains cannot sleep in it.
+  /// later, when the grains are known), grains cannot sleep in it, or options exclude each other.
   Simulation(Model model, double time_step, const SimulationOptions& options = {});
 
   /// Throws InputError for a grain whose numbers are not finite or whose radius is not positive.
@@ -62,6 +65,10 @@ class Simulation {
   std::int64_t step() const { return step_; }
   double time() const { return static_cast<double>(step_) * dt_; }
   double time_step() const { return dt_; }
+  /// The step that a grain of this radius takes [s].
+  double step_of(double radius) const {
+    return options_.rates.two() && options_.rates.is_quick(radius) ? beat_ : dt_;
+  }
   std::size_t grains() const { return grains_.size(); }
   std::size_t grains_asleep() const;
   std::int64_t grains_added() const { return next_id_; }
@@ -99,6 +106,14 @@ class Simulation {
     Vec3d offset{0, 0, 0};   // of the shape at `since` from the shape at time 0
     std::int64_t since = 0;  // step
   };
+  /// Accelerations of a group by what acts in whole steps.
+  struct alignas(64) GroupPull {
+    double linear[3][kLanes], angular[3][kLanes];
+  };
+  /// A group's present motion, and accelerations by what acts in beats and in whole steps.
+  struct RatedState {
+    Vec3<Each> velocity, spin, quick, quick_angular, slow, slow_angular;
+  };
   /// What one block of grains reports of a pass.
   struct PassReport {
     bool strayed = false;      // a grain used up its short reach
@@ -108,11 +123,18 @@ class Simulation {
 
   void check_grain(const NewGrain& grain) const;
   RestRule rest_rule() const;
-  void place_walls();
+  void place_walls(int beat = 0);
   double wall_travel() const;
   void begin_step();
+  GrainAcceleration first_acceleration(double radius) const;
   template <class Body>
   void for_blocks(const Blocks& blocks, const Body& body) const;
+  template <class Work>
+  void for_parts(const Work& work) const;
+  void look_at_moved(const GroupStep& moved, std::size_t group, std::uint32_t lanes, PassReport& report);
+  template <class Real>
+  void look_for_leavers(PairRow<Real>* rows, const GroupStep& moved, std::size_t group, std::uint32_t lanes,
+                        PassReport& report);
   template <class Real>
   void begin_group(PairRow<Real>* rows, std::size_t group, const GroupState& now, PassReport& report);
   void end_group(std::size_t group, const GroupState& now);
@@ -124,6 +146,26 @@ class Simulation {
   void evaluate_and_move(PairRow<Real>* rows, bool begin_next);
   template <class Real>
   bool wrap_or_leave(PairRow<Real>& row, GrainLabel& label) const;
+  void evaluate_and_move_rated(bool begin_next);
+  template <class Real>
+  void evaluate_and_move_rated(PairRow<Real>* rows, bool begin_next);
+  template <class Real>
+  PassReport move_rows_rated(PairRow<Real>* rows, const StepView& view, std::size_t begin, std::size_t end,
+                             bool begin_next);
+  template <class Real>
+  void begin_group_rated(PairRow<Real>* rows, std::size_t group, const RatedState& now, PassReport& report);
+  void end_group_rated(std::size_t group, const RatedState& now);
+  void begin_step_rated();
+  void finish_beats();
+  template <class Real>
+  void work_on_beat(PairRow<Real>* rows, bool last);
+  template <class Real>
+  void beat_group(PairRow<Real>* rows, const StepView& view, std::size_t group, bool last,
+                  PassReport& report);
+  StepView beat_view(const PairView& pairs);
+  void note_quick_slots(const std::vector<GrainSite>& sites);
+  void put_beating_first(std::vector<std::uint32_t>& order) const;
+  double reserve() const;
   void take_report(const std::vector<PassReport>& reports);
   bool inside(const Vec3d& position) const;
   void remove_leavers();
@@ -145,6 +187,7 @@ class Simulation {
   void restore_springs(const SavedState& state);
   void restore_energies(const SavedState& state);
   void restore_rests(const SavedState& state);
+  void restore_slow_accelerations(const SavedState& state);
   double attraction_reach(double largest) const;
   StepView step_view(const PairView& pairs);
   void count_inserted_contacts();
@@ -184,6 +227,7 @@ class Simulation {
   Model model_;
   double dt_;
   SimulationOptions options_;
+  double beat_;  // the step of quick grains [s]
   ForceKernels kernels_;
   std::vector<PairConstants<double>> constants_;        // materials x materials
   std::vector<PairConstants<float>> constants_single_;  // the same
@@ -209,6 +253,10 @@ class Simulation {
   std::size_t turned_ = 0;  // how many fell asleep or woke since grains were last put in order
   bool looks_ = false;      // this step looks at those watched
   bool watch_all_ = false;  // this step works on all
+
+  QuickSlots quick_;             // with two rates
+  std::vector<GroupPull> slow_;  // by group of slots: what moves grains by whole steps
+  bool left_ = false;            // a grain has left, and is still there
 
   bool list_valid_ = false;
   bool begun_ = false;                  // the step after step_ has been begun

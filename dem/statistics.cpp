@@ -128,8 +128,8 @@ StepCheck check_step(const Simulation& sim) {
     const double gamma = dashpot(c.damping, stiffness, mass);
     return laws.tangential == TangentialLaw::mindlin ? std::max(gamma, 3.5 * c.shear_damping * gamma) : gamma;
   };
-  const auto consider = [&](double stiffness, double mass, std::int64_t a, std::int64_t b) {
-    const double ratio = sim.time_step() * std::sqrt(stiffness / mass);
+  const auto consider = [&](double step, double stiffness, double mass, std::int64_t a, std::int64_t b) {
+    const double ratio = step * std::sqrt(stiffness / mass);
     if (ratio > worst.ratio) worst.ratio = ratio, worst.grain_a = a, worst.grain_b = b;
   };
   for_touching_pairs(sim, [&](std::uint32_t slot_a, std::uint32_t slot_b, std::uint32_t) {
@@ -140,7 +140,7 @@ StepCheck check_step(const Simulation& sim) {
     const double stiffness =
         normal_response(laws, stored_overlap(laws, overlap), a.radius * b.radius / reach, c).stiffness;
     const double mass = a.mass * b.mass / (a.mass + b.mass);
-    consider(stiffness, mass, a.id, b.id);
+    consider(sim.step_of(std::min(a.radius, b.radius)), stiffness, mass, a.id, b.id);
     const double gamma = decay_rate(c, stiffness, mass);
     decay[slot_a] += gamma / a.mass;
     decay[slot_b] += gamma / b.mass;
@@ -150,17 +150,18 @@ StepCheck check_step(const Simulation& sim) {
   });
   for (std::size_t slot = 0; slot < rows.size(); ++slot) {
     const GrainRow& g = rows[slot];
+    const double step = sim.step_of(g.radius);
     for (const WallContact& c : sim.wall_contacts().of(slot)) {
       if (!c.touching()) continue;
       const double overlap = g.radius - wall_distance(sim.walls()[c.wall], g.position()).distance;
       const double stiffness = normal_response(laws, stored_overlap(laws, overlap), g.radius,
                                                sim.constants(g.material, sim.model().walls[c.wall].material))
                                    .stiffness;
-      consider(stiffness, g.mass, g.id, -1);
+      consider(step, stiffness, g.mass, g.id, -1);
       bound[slot] += stiffness / g.mass;
     }
-    const double frequency = sim.time_step() * std::sqrt(bound[slot]);
-    const double slowed = sim.time_step() * decay[slot];
+    const double frequency = step * std::sqrt(bound[slot]);
+    const double slowed = step * decay[slot];
     if (slowed > worst.damping) worst.damping = slowed, worst.damping_grain = g.id;
     if (frequency > worst.frequency) worst.frequency = frequency, worst.frequency_grain = g.id;
   }

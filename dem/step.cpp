@@ -1,24 +1,16 @@
 // What a step does with forces: pairs are evaluated by the kernels, then every grain collects what its
 // contacts did, completes its velocities and (to spare a pass over memory) begins the next step.
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-
-#include <bit>
-
 #include "base/parallel.h"
 #include "dem/end_sums.h"
 #include "dem/flatten.h"
 #include "dem/simulation.h"
+#include "dem/step_loops.h"
 
 namespace interstice::dem {
 namespace {
 
-constexpr std::size_t kGroupsPerTask = 64;
 /// Groups of pairs between requests for rows ahead: many at once would wait for each other.
 constexpr std::size_t kGroupsAtOnce = 4;
-/// How far a grain may go in a step, in squared radii.
-constexpr double kStepLimit = 0.25;
-
 /// Has memory brought near that is needed soon; returns where the next request goes on.
 const char* ask_for(const char* line, const char* end) {
   for (; line < end; line += 64) __builtin_prefetch(line, 1, 2);
@@ -27,25 +19,6 @@ const char* ask_for(const char* line, const char* end) {
 
 }  // namespace
 
-/// A grain outside the domain: put back through a periodic face; true when it left through an open one.
-template <class Real>
-bool Simulation::wrap_or_leave(PairRow<Real>& row, GrainLabel& label) const {
-  bool left = false;
-  for (int axis = 0; axis < 3; ++axis) {
-    double& p = axis == 0 ? row.x : axis == 1 ? row.y : row.z;
-    const double lo = model_.domain.lo[axis], hi = model_.domain.hi[axis];
-    if (p >= lo && p < hi) continue;
-    if (model_.boundary[axis] == AxisBoundary::open) {
-      left = true;
-    } else {
-      const double shift = p < lo ? hi - lo : lo - hi;
-      p += shift;
-      label.built[axis] += shift;
-    }
-  }
-  return left;
-}
-
 /// Begins the step of a group of grains.
 template <class Real>
 inline void Simulation::begin_group(PairRow<Real>* rows, std::size_t group, const GroupState& now,
@@ -53,35 +26,14 @@ inline void Simulation::begin_group(PairRow<Real>* rows, std::size_t group, cons
   const std::size_t first = group * kLanes;
   const std::uint32_t filled = grains_.filled_lanes(group);
   const GroupStep moved = begin_motion(rows + first, grains_.motions()[group], now, dt_);
-  const Each squared = dot(moved.step, moved.step);
-  const std::uint32_t broken =
-      filled & ~(squared <= Each(kStepLimit) * (moved.radius * moved.radius)).bits();  // or no number
-  if (broken != 0 && report.broken < 0)
-    report.broken = grains_.labels()[first + static_cast<std::size_t>(std::countr_zero(broken))].id;
-  const Each left = Each::load(&path_left_[first]) - sqrt_of(squared);
-  left.store(&path_left_[first]);
-  report.strayed |= ((left < Each(0)).bits() & filled) != 0;
-
-  const Vec3<Each> lo = all_of(model_.domain.lo), hi = all_of(model_.domain.hi);
-  const Vec3<Each>& p = moved.position;
-  const auto inside =
-      (p.x >= lo.x) & (p.x < hi.x) & (p.y >= lo.y) & (p.y < hi.y) & (p.z >= lo.z) & (p.z < hi.z);
-  for (std::uint32_t out = filled & ~inside.bits(); out != 0; out &= out - 1) {
-    const std::size_t slot = first + static_cast<std::size_t>(std::countr_zero(out));
-    report.left |= wrap_or_leave(rows[slot], grains_.labels()[slot]);
-  }
+  look_at_moved(moved, group, filled, report);
+  look_for_leavers(rows, moved, group, filled, report);
   if (options_.energies) add_lifting(first, moved.step);
-}
-
-/// Calls body(block, begin, end) for every block, in the reference one after the other.
-template <class Body>
-void Simulation::for_blocks(const Blocks& blocks, const Body& body) const {
-  if (!options_.reference) return for_each_block(blocks, body);
-  for (std::size_t b = 0; b < blocks.count(); ++b) body(b, blocks.begin(b), blocks.end(b));
 }
 
 /// From present velocities and accelerations.
 void Simulation::begin_step() {
+  if (options_.rates.two()) return begin_step_rated();
   path_left_.resize(groups_for(grains_.size()) * kLanes, 0);  // grains may have come since lists were made
   grains_.with_rows([&](auto& rows) {
     const Blocks blocks{grains_.size(), kRowsPerBlock};
@@ -154,35 +106,20 @@ void Simulation::evaluate_and_move(PairRow<Real>* rows, bool begin_next) {
   });
   if (options_.energies) count_inserted_contacts();
 
-  const auto work_on = [&](std::size_t part) {
-    std::size_t group = sweep.first_group[part];
-    for (std::size_t b = sweep.parts.first_block[part]; b < sweep.parts.first_block[part + 1]; ++b) {
-      const bool last = b + 1 == sweep.parts.first_block[part + 1];
-      evaluate_pairs<kSleep, Real>(view, group, sweep.done_before[b], rows + sweep.front[b],
-                                   rows + sweep.front[last ? b : b + 1]);
-      group = sweep.done_before[b];
-      const std::size_t begin = sweep.parts.begin_row(b), end = sweep.parts.end_row(b);
-      if (kSleep && spares(begin, end)) continue;
-      pair_contacts_.fetch_shared(b);
-      const std::size_t near = wall_contacts_.first_group(b), near_end = wall_contacts_.first_group(b + 1);
-      if constexpr (kSleep) {
-        evaluate_needed_walls<Real>(view, near, near_end);
-      } else {
-        kernels_.walls(model_.laws, view, near, near_end);
-      }
-      reports[b] = move_rows<kSleep>(rows, view, begin, end, begin_next);
+  for_parts([&](std::size_t b, std::size_t group, bool last) {
+    evaluate_pairs<kSleep, Real>(view, group, sweep.done_before[b], rows + sweep.front[b],
+                                 rows + sweep.front[last ? b : b + 1]);
+    const std::size_t begin = sweep.parts.begin_row(b), end = sweep.parts.end_row(b);
+    if (kSleep && spares(begin, end)) return;
+    pair_contacts_.fetch_shared(b);
+    const std::size_t near = wall_contacts_.first_group(b), near_end = wall_contacts_.first_group(b + 1);
+    if constexpr (kSleep) {
+      evaluate_needed_walls<Real>(view, near, near_end);
+    } else {
+      kernels_.walls(model_.laws, view, near, near_end);
     }
-  };
-  if (options_.reference || sweep.parts.count() == 1) {
-    for (std::size_t p = 0; p < sweep.parts.count(); ++p) work_on(p);
-  } else {
-    tbb::parallel_for(
-        tbb::blocked_range<std::size_t>(0, sweep.parts.count(), 1),
-        [&](const auto& range) {
-          for (std::size_t p = range.begin(); p != range.end(); ++p) work_on(p);
-        },
-        tbb::simple_partitioner());
-  }
+    reports[b] = move_rows<kSleep>(rows, view, begin, end, begin_next);
+  });
   if (begin_next) take_report(reports);
 }
 

@@ -19,7 +19,7 @@ namespace {
 class PairKeys {
  public:
   PairKeys(const std::vector<PairRef>& pairs, const PairClasses& classes, const Parts& parts, bool all_shared)
-      : shared_keys_(parts.blocks() * kRowsPerBlock), of_pair_(pairs.size()) {
+      : rows_(parts.blocks() * kRowsPerBlock), of_pair_(pairs.size()) {
     std::vector<std::uint16_t> part_of_block(parts.blocks());
     for (std::size_t p = 0; p < parts.count(); ++p)
       for (std::size_t b = parts.first_block[p]; b < parts.first_block[p + 1]; ++b)
@@ -31,21 +31,27 @@ class PairKeys {
       const bool shared = all_shared || last - first > farthest ||
                           part_of_block[first / kRowsPerBlock] != part_of_block[last / kRowsPerBlock];
       of_pair_[k] = static_cast<std::uint32_t>(
-          shared ? first
+          shared ? first + (classes.is_quick(k) ? rows_ : 0)
                  : begin_of(first / kRowsPerBlock) + classes.of(k) * kRowsPerBlock + first % kRowsPerBlock);
     }
   }
 
   std::uint32_t of_pair(std::size_t k) const { return of_pair_[k]; }
-  bool is_shared(std::size_t k) const { return of_pair_[k] < shared_keys_; }
+  bool is_shared(std::size_t k) const { return of_pair_[k] < begin_of(0); }
+  /// The first key of quick shared pairs.
+  std::size_t shared_quick() const { return rows_; }
   /// Keys of unshared pairs of a block.
   std::size_t begin_of(std::size_t block) const {
-    return shared_keys_ + PairClasses::kCount * kRowsPerBlock * block;
+    return 2 * rows_ + PairClasses::kCount * kRowsPerBlock * block;
+  }
+  /// Of these the first of quick pairs.
+  std::size_t quick_of(std::size_t block) const {
+    return begin_of(block) + PairClasses::kQuick * kRowsPerBlock;
   }
   std::size_t count(std::size_t blocks) const { return begin_of(blocks); }
 
  private:
-  std::size_t shared_keys_;
+  std::size_t rows_;
   std::vector<std::uint32_t> of_pair_;
 };
 
@@ -84,14 +90,20 @@ PairOrder order_pairs(const std::vector<PairRef>& pairs, const PairClasses& clas
     }
   };
   const auto next_group = [&] { return groups_for(at); };
-  place_keys(0, keys.begin_of(0));
+  const bool two_rates = pairs.size() > classes.end[PairClasses::kAsleep];
+  const auto begin_group = [&] { return (at = next_group() * kLanes) / kLanes; };
+  place_keys(0, keys.shared_quick());
+  sweep.shared_quick = begin_group();
+  place_keys(keys.shared_quick(), keys.begin_of(0));
   sweep.shared_groups = next_group();
   at = sweep.shared_groups * kLanes;
   for (std::size_t p = 0; p < parts.count(); ++p) {
     sweep.first_group.push_back(next_group());
     for (std::size_t b = parts.first_block[p]; b < parts.first_block[p + 1]; ++b) {
-      place_keys(keys.begin_of(b), keys.begin_of(b + 1));
-      sweep.done_before.push_back(next_group());
+      place_keys(keys.begin_of(b), keys.quick_of(b));
+      sweep.quick.push_back(two_rates ? begin_group() : next_group());
+      place_keys(keys.quick_of(b), keys.begin_of(b + 1));
+      sweep.done_before.push_back(two_rates ? begin_group() : next_group());
     }
     at = next_group() * kLanes;
   }

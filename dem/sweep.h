@@ -5,6 +5,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -37,6 +38,8 @@ struct Parts {
 struct Sweep {
   Parts parts;
   std::size_t shared_groups = 0;
+  std::size_t shared_quick = 0;          // the first shared group of quick pairs
+  std::vector<std::size_t> quick;        // by block: the first group of its quick pairs, which come last
   std::vector<std::size_t> first_group;  // of each part
   std::vector<std::size_t> done_before;  // by block: groups before this one must be done before its rows move
   std::vector<std::size_t> front;        // by block: one past the last row that the groups up to there touch
@@ -50,13 +53,20 @@ struct PairOrder {
   std::size_t places = 0;            // a multiple of kLanes
 };
 
-/// Pairs in the order of what a step has to do with them: those that may touch now end before `touching`,
-/// those that are only near before `near`; pairs of sleepers follow.
+/// Pairs in the order of what a step has to do with them: those that may touch now, those that are only near,
+/// those of two sleepers; then the quick ones (rates.h) that may touch and those that are only near, which
+/// fill groups of their own.
 struct PairClasses {
-  std::size_t touching = 0, near = 0;
+  static constexpr std::size_t kTouching = 0, kNear = 1, kAsleep = 2, kQuick = 3, kCount = 5;
 
-  std::size_t of(std::size_t k) const { return k < touching ? 0 : k < near ? 1 : 2; }
-  static constexpr std::size_t kCount = 3;
+  std::array<std::size_t, kCount> end{};  // one past the last of each class
+
+  std::size_t of(std::size_t k) const {
+    std::size_t c = 0;
+    while (c + 1 < kCount && k >= end[c]) ++c;
+    return c;
+  }
+  bool is_quick(std::size_t k) const { return k >= end[kAsleep]; }
 };
 
 /// `all_shared`: every pair is done before any grain moves.

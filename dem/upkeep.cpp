@@ -101,7 +101,9 @@ bool Simulation::candidates_last() const {
 }
 
 void Simulation::update_lists() {
-  if (list_valid_ && !strayed_ && wall_travel() <= reach_of_walls_) return;
+  if (list_valid_ && !strayed_ &&
+      wall_travel() + (options_.rates.two() ? dt_ * fastest_wall() : 0) <= reach_of_walls_)
+    return;
   if (list_valid_ && candidates_last()) {
     refresh({}, grains_.sites());
   } else {
@@ -142,6 +144,7 @@ void Simulation::sort_grains(std::vector<GrainSite>& sites) {
     return;
   std::vector<std::uint32_t> order = order_in_space(sites);
   if (rest_) put_awake_first(order);
+  if (options_.rates.two()) put_beating_first(order);
   grains_.take(order);
   sites = grains_.sites();
   sorted_at_ = rebuilds_;
@@ -197,36 +200,45 @@ void Simulation::refresh(const std::vector<std::uint32_t>& old_slot, const std::
   const NearTest near(space);
   std::vector<GrainSite> reaching = sites;
   path_left_.assign(groups_for(sites.size()) * kLanes, 0);
+  const double kept_back = reserve();
   for (std::size_t s = 0; s < sites.size(); ++s) {
-    path_left_[s] = std::min(near_reach(speed_of(s)), candidate_reach_left(s));
-    reaching[s].radius += path_left_[s];
+    const double reach = std::min(near_reach(speed_of(s)) + kept_back, candidate_reach_left(s));
+    path_left_[s] = reach - kept_back;
+    reaching[s].radius += reach;
   }
   const Blocks blocks{candidates_.size(), 4096};
   std::array<std::vector<std::vector<PairRef>>, PairClasses::kCount> by_class;
   by_class.fill(std::vector<std::vector<PairRef>>(blocks.count()));
+  const auto is_quick = [&](std::uint32_t slot) {
+    return options_.rates.two() && options_.rates.is_quick(sites[slot].radius);
+  };
   const auto sleeps = [&](std::uint32_t slot) { return rest_ && grains_.rests()[slot].asleep(); };
   for_each_block(blocks, [&](std::size_t b, std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) {
       const PairRef& c = candidates_[k];
       if (!near(reaching[c.a], reaching[c.b])) continue;
-      const std::size_t rank = sleeps(c.a) && sleeps(c.b) ? 2 : near(sites[c.a], sites[c.b]) ? 0 : 1;
-      by_class[rank][b].push_back(c);
+      const std::size_t rank = near(sites[c.a], sites[c.b]) ? PairClasses::kTouching : PairClasses::kNear;
+      by_class[sleeps(c.a) && sleeps(c.b)       ? PairClasses::kAsleep
+               : is_quick(c.a) || is_quick(c.b) ? PairClasses::kQuick + rank
+                                                : rank][b]
+          .push_back(c);
     }
   });
   std::vector<PairRef> pairs;
   pairs.reserve(candidates_.size());
-  std::array<std::size_t, PairClasses::kCount> end;
+  PairClasses classes;
   for (std::size_t rank = 0; rank < by_class.size(); ++rank) {
     for (const auto& block : by_class[rank]) pairs.insert(pairs.end(), block.begin(), block.end());
-    end[rank] = pairs.size();
+    classes.end[rank] = pairs.size();
   }
   reach_of_walls_ = near_reach_of_walls();
-  wall_contacts_.replace(reaching, walls_, reach_of_walls_ + attraction_, old_slot);
+  wall_contacts_.replace(sites, reaching, walls_, reach_of_walls_ + attraction_, old_slot);
   std::vector<std::uint32_t> walls_near(sites.size());
   for (std::size_t s = 0; s < sites.size(); ++s)
     walls_near[s] = static_cast<std::uint32_t>(wall_contacts_.places_of(s).size());
-  pair_contacts_.replace(pairs, {end[0], end[1]}, sites, old_slot, parts(), walls_near);
+  pair_contacts_.replace(pairs, classes, sites, old_slot, parts(), walls_near);
   wall_contacts_.place_ends(pair_contacts_);
+  if (options_.rates.two()) note_quick_slots(sites);
   refreshed_walls_ = walls_;
   survey_due_ = true;
   strayed_ = false;

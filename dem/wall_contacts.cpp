@@ -9,18 +9,20 @@
 
 namespace interstice::dem {
 
-WallContacts::WallContacts(const KeptMemories& kept, Precision precision)
-    : kept_(kept), sliding_(precision), rolling_(precision), forces_(precision) {}
+WallContacts::WallContacts(const KeptMemories& kept, Precision precision, const Rates& rates)
+    : kept_(kept), rates_(rates), sliding_(precision), rolling_(precision), forces_(precision) {}
 
-void WallContacts::replace(const std::vector<GrainSite>& sites, const std::vector<Shape>& walls, double reach,
+void WallContacts::replace(const std::vector<GrainSite>& sites, const std::vector<GrainSite>& reaching,
+                           const std::vector<Shape>& walls, double reach,
                            const std::vector<std::uint32_t>& old_slot) {
   const Blocks blocks{sites.size(), kRowsPerBlock};
   FoundByBlock found(blocks.count());
   for_each_block(blocks, [&](std::size_t b, std::size_t begin, std::size_t end) {
     for (std::uint32_t w = 0; w < walls.size(); ++w)
       for (std::size_t s = begin; s < end; ++s)
-        if (wall_distance(walls[w], sites[s].position()).distance < sites[s].radius + reach)
-          found[b].push_back({static_cast<std::uint32_t>(s), w});
+        if (wall_distance(walls[w], sites[s].position()).distance < reaching[s].radius + reach)
+          (rates_.is_quick(sites[s].radius) ? found[b].quick : found[b].slow)
+              .push_back({static_cast<std::uint32_t>(s), w});
   });
 
   const WallContacts old = std::move(*this);  // lists, bits and springs are made anew below
@@ -49,24 +51,30 @@ void WallContacts::replace(const std::vector<GrainSite>& sites, const std::vecto
 void WallContacts::place(const FoundByBlock& found, std::size_t slots) {
   first_.assign(slots + 1, 0);
   first_group_.assign(1, 0);
+  first_quick_.clear();
   std::size_t contacts = 0;
-  for (const auto& block : found) {
-    for (const Found& f : block) ++first_[f.slot + 1];
-    contacts += block.size();
-    first_group_.push_back(first_group_.back() + static_cast<std::uint32_t>(groups_for(block.size())));
+  for (const FoundInBlock& block : found) {
+    for (const auto* list : {&block.slow, &block.quick})
+      for (const Found& f : *list) ++first_[f.slot + 1];
+    contacts += block.slow.size() + block.quick.size();
+    first_quick_.push_back(first_group_.back() + static_cast<std::uint32_t>(groups_for(block.slow.size())));
+    first_group_.push_back(first_quick_.back() + static_cast<std::uint32_t>(groups_for(block.quick.size())));
   }
   for (std::size_t s = 0; s < slots; ++s) first_[s + 1] += first_[s];
   place_.resize(contacts);
   slots_.resize(first_group_.back() * kLanes);
   walls_.resize(slots_.size());
   std::vector<std::uint32_t> next(first_.begin(), first_.end() - 1);
-  for (std::size_t b = 0; b < found.size(); ++b) {
-    std::size_t k = first_group_[b] * kLanes;
-    for (const Found& f : found[b]) {
+  const auto place_list = [&](const std::vector<Found>& list, std::size_t k, std::size_t end) {
+    for (const Found& f : list) {
       slots_[k] = f.slot, walls_[k] = f.wall;
       place_[next[f.slot]++] = static_cast<std::uint32_t>(k++);
     }
-    for (; k < first_group_[b + 1] * kLanes; ++k) slots_[k] = slots_[k - 1], walls_[k] = walls_[k - 1];
+    for (; k < end; ++k) slots_[k] = slots_[k - 1], walls_[k] = walls_[k - 1];
+  };
+  for (std::size_t b = 0; b < found.size(); ++b) {
+    place_list(found[b].slow, first_group_[b] * kLanes, first_quick_[b] * kLanes);
+    place_list(found[b].quick, first_quick_[b] * kLanes, first_group_[b + 1] * kLanes);
   }
 }
 
@@ -112,8 +120,9 @@ WallView WallContacts::view() {
 
 std::size_t WallContacts::bytes() const {
   const auto of = [](const auto& v) { return v.capacity() * sizeof(v[0]); };
-  return of(slots_) + of(walls_) + of(ends_) + of(bits_) + sliding_.bytes() + rolling_.bytes() +
-         forces_.bytes() + of(heat_) + of(power_) + of(first_group_) + of(first_) + of(place_);
+  return of(slots_) + of(walls_) + of(ends_) + of(bits_) + of(first_quick_) + sliding_.bytes() +
+         rolling_.bytes() + forces_.bytes() + of(heat_) + of(power_) + of(first_group_) + of(first_) +
+         of(place_);
 }
 
 }  // namespace interstice::dem

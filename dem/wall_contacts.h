@@ -1,6 +1,7 @@
 // Which grains are near which walls, and what their contacts remember. Like pairs, kLanes at a time: a group
-// holds contacts of grains of one block of rows (sweep.h), wall by wall, and is worked on right before these
-// move. What a wall does to a grain is collected with the ends of the grain's pairs, after them.
+// holds contacts of grains of one block of rows (sweep.h), wall by wall, those of quick grains (rates.h) in
+// groups of their own, and is worked on right before these move. What a wall does to a grain is collected
+// with the ends of the grain's pairs, after them.
 #pragma once
 
 #include <cstdint>
@@ -11,6 +12,7 @@
 #include "base/shapes.h"
 #include "dem/contact_memory.h"
 #include "dem/grains.h"
+#include "dem/rates.h"
 #include "dem/springs.h"
 
 namespace interstice::dem {
@@ -44,11 +46,12 @@ struct WallView {
 
 class WallContacts {
  public:
-  WallContacts(const KeptMemories& kept, Precision precision);
+  WallContacts(const KeptMemories& kept, Precision precision, const Rates& rates = {});
 
-  /// Lists the walls nearer than `reach` to each grain; memories move along as in PairContacts::replace.
-  void replace(const std::vector<GrainSite>& sites, const std::vector<Shape>& walls, double reach,
-               const std::vector<std::uint32_t>& old_slot);
+  /// Lists the walls nearer than `reach` to each grain, which has a reach of its own as well: the radius in
+  /// `reaching`. Memories move along as in PairContacts::replace.
+  void replace(const std::vector<GrainSite>& sites, const std::vector<GrainSite>& reaching,
+               const std::vector<Shape>& walls, double reach, const std::vector<std::uint32_t>& old_slot);
   /// Has them put their forces where the grains collect them.
   void place_ends(const PairContacts& pairs);
 
@@ -61,6 +64,8 @@ class WallContacts {
                     const TangentialSpring<double>& rolling);
   /// The first group of a block's grains; of one past the last block, how many there are.
   std::size_t first_group(std::size_t block) const { return first_group_[block]; }
+  /// Of these the first of quick grains, which come last.
+  std::size_t first_quick(std::size_t block) const { return first_quick_[block]; }
 
   /// The places of the grain in `slot`, by wall; none for a grain added since the list was made.
   std::span<const std::uint32_t> places_of(std::size_t slot) const {
@@ -81,17 +86,22 @@ class WallContacts {
   struct Found {
     std::uint32_t slot, wall;
   };
-  using FoundByBlock = std::vector<std::vector<Found>>;
+  struct FoundInBlock {
+    std::vector<Found> slow, quick;
+  };
+  using FoundByBlock = std::vector<FoundInBlock>;
 
   void place(const FoundByBlock& found, std::size_t slots);
 
   KeptMemories kept_;
+  Rates rates_;
   std::vector<std::uint32_t> slots_, walls_, ends_;  // by place
   std::vector<GroupBits> bits_;
   Reals sliding_, rolling_, forces_;
   std::vector<PairHeat> heat_;
   std::vector<double> power_;
   std::vector<std::uint32_t> first_group_{0};  // by block
+  std::vector<std::uint32_t> first_quick_;     // the same
   std::vector<std::uint32_t> first_{0};        // of each slot in place_, and one past the last
   std::vector<std::uint32_t> place_;           // by slot, then by wall
 };
