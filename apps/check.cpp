@@ -33,7 +33,25 @@ struct Estimate {
   double smallest = std::numeric_limits<double>::infinity(), largest = 0;  // diameters [m]
 };
 
-Estimate estimate(const scene::Scene& scene, double step) {
+/// What a step costs beside one in which nobody takes short steps: each of these works on small grains and
+/// what they touch (docs/PERFORMANCE.md, Two rates of steps).
+double cost_of_step(const scene::Scene& scene, const stream::StepChoice& choice) {
+  if (choice.short_steps == 1) return 1;
+  double small = 0, all = 0;
+  for (const scene::Particles& p : scene.particles) {
+    if (!p.rain) continue;
+    constexpr int kSamples = 1000;
+    const scene::SizeDistribution sizes(p.diameter);
+    int below = 0;
+    for (int i = 0; i < kSamples; ++i)
+      below += sizes.quantile((i + 0.5) / kSamples) < *scene.step.short_below;
+    small += static_cast<double>(p.count) * below / kSamples, all += static_cast<double>(p.count);
+  }
+  const double share = std::min(1.0, 0.05 + 4 * (all > 0 ? small / all : 0));
+  return 1 + (choice.short_steps - 1) * share;
+}
+
+Estimate estimate(const scene::Scene& scene, const stream::StepChoice& choice) {
   Estimate e;
   for (const scene::Particles& p : scene.particles) {
     e.grains += static_cast<double>(p.list ? static_cast<std::int64_t>(p.list->grains.size()) : p.count);
@@ -41,10 +59,10 @@ Estimate estimate(const scene::Scene& scene, double step) {
     e.largest = std::max(e.largest, scene::largest_diameter(p));
   }
   for (const scene::Phase& p : scene.phases) e.simulated_at_most += p.duration.value_or(p.at_most);
-  e.steps_at_most = static_cast<double>(stream::steps_in(e.simulated_at_most, step));
+  e.steps_at_most = static_cast<double>(stream::steps_in(e.simulated_at_most, choice.step));
   e.memory = e.grains * kBytesPerGrain + stream::fields_memory(scene);
-  e.seconds =
-      e.grains * e.steps_at_most / (kParticleStepsPerSecondPerCore * tbb::info::default_concurrency());
+  e.seconds = e.grains * e.steps_at_most * cost_of_step(scene, choice) /
+              (kParticleStepsPerSecondPerCore * tbb::info::default_concurrency());
   return e;
 }
 
@@ -96,6 +114,7 @@ nlohmann::ordered_json as_json(const scene::Scene& scene, const stream::StepChoi
   j["diameter_min_m"] = e.smallest;
   j["diameter_max_m"] = e.largest;
   j["time_step_s"] = c.step;
+  if (scene.step.short_below) j["short_steps"] = c.short_steps;
   j["time_step_limited_by"] = c.limited_by;
   j["rayleigh_time_s"] = c.limits.rayleigh_time;
   j["collision_time_s"] =
@@ -120,11 +139,14 @@ void print(const scene::Scene& scene, const stream::StepChoice& c, const stream:
   fmt::print("{}\n", scene.title.empty() ? scene.file : scene.title);
   fmt::print("  particles       {:.0f}, {:.3g} to {:.3g} um\n", e.grains, e.smallest * 1e6, e.largest * 1e6);
   fmt::print("  time step       {:.4g} s, limited by {}\n", c.step, c.limited_by);
-  fmt::print("    Rayleigh time   {:.4g} s (the step is {:.3g} of it)\n", c.limits.rayleigh_time,
-             c.rayleigh_fraction);
+  if (c.short_steps > 1)
+    fmt::print("    short steps     {} of {:.4g} s each for grains below {:.3g} um\n", c.short_steps,
+               c.short_step(), 1e6 * *scene.step.short_below);
+  fmt::print("    Rayleigh time   {:.4g} s ({} step is {:.3g} of it)\n", c.limits.rayleigh_time,
+             c.short_steps > 1 ? "a short" : "the", c.rayleigh_fraction);
   if (std::isfinite(c.limits.collision_time)) {
-    fmt::print("    collision time  {:.4g} s at {:.3g} m/s (the step is {:.3g} of it)\n",
-               c.limits.collision_time, c.speed, c.collision_fraction);
+    fmt::print("    collision time  {:.4g} s at {:.3g} m/s ({} step is {:.3g} of it)\n",
+               c.limits.collision_time, c.speed, c.short_steps > 1 ? "a short" : "the", c.collision_fraction);
   } else {
     fmt::print("    collision time  none: nothing moves\n");
   }
@@ -144,7 +166,7 @@ void check(const CheckArguments& a) {
   warnings.insert(warnings.end(), choice.warnings.begin(), choice.warnings.end());
   warnings.insert(warnings.end(), contacts.warnings.begin(), contacts.warnings.end());
   for (const std::string& w : warnings) fmt::print(stderr, "warning: {}\n", w);
-  const Estimate e = estimate(scene, choice.step);
+  const Estimate e = estimate(scene, choice);
   if (a.json) {
     fmt::print("{}\n", as_json(scene, choice, contacts, e).dump(2));
   } else {

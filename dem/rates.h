@@ -1,7 +1,7 @@
 // Two rates of steps: grains smaller than a limit are *quick*, and take several short steps, *beats*, for
 // each step of the others. What a quick grain touches is worked on in every beat, all else once a step:
-// reversible reference system propagation (Tuckerman, Berne & Martyna, J. Chem. Phys. 97, 1992, 1990, eq.
-// 2.22), with the forces between slow bodies as the slow part.
+// reversible reference system propagation (Tuckerman, Berne & Martyna, J. Chem. Phys. 97, 1990, 1992),
+// with the forces between slow bodies as the slow part.
 //
 // A slow grain near a quick one moves in every beat, too; the others, on which nothing acts between two
 // steps, are moved by as many beats at once, to the same bits. So which slow grains move in beats depends on

@@ -291,6 +291,17 @@ void check_sleeping(const Checker& check) {
                 "it is allowed with a gravity above 0 m/s^2", "give domain.gravity, or drop this key");
 }
 
+void check_short_steps(const Checker& check) {
+  const TimeStep& step = check.scene.step;
+  if (!step.short_below) return;
+  const auto excluded = [&](const char* what) {
+    check.error("time.short_steps_below", fmt::format("does not go with {}", what),
+                "grains all take the same step there", "drop one of the two");
+  };
+  if (step.sleeping) excluded("time.sleeping");
+  if (check.scene.output.energy) excluded("output.energy");
+}
+
 }  // namespace
 
 void check_scene(const Scene& scene, const Value& document, Problems& problems) {
@@ -301,6 +312,7 @@ void check_scene(const Scene& scene, const Value& document, Problems& problems) 
   check_periodic_walls(check);
   check_time_step(check);
   check_sleeping(check);
+  check_short_steps(check);
   for (std::size_t i = 0; i < scene.fields.size(); ++i)
     check_inside(check, check.path("fields", i) + ".box", scene.fields[i].box,
                  "make it smaller, or the domain larger");

@@ -133,6 +133,7 @@ TimeStep read_time_step(const TableReader& time) {
   step.allow_unstable = time.boolean("allow_unstable");
   step.sleeping = time.boolean("sleeping");
   step.sleep_tolerance = time.quantity("sleep_tolerance");
+  step.short_below = time.optional_quantity("short_steps_below");
   const Value* value = time.raw("step");
   if (value && value->kind != Value::Kind::table) {
     const Key key{.name = "step",

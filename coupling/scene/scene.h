@@ -161,6 +161,8 @@ struct TimeStep {
   bool sleeping = false;          // grains at rest are left out of steps ...
   double sleep_tolerance = 0.05;  // ... until forces on them are out of balance by this share of their weight
 
+  std::optional<double> short_below;  // grains of a smaller diameter take shorter steps [m]
+
   bool operator==(const TimeStep&) const = default;
 };
 

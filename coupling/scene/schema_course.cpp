@@ -106,6 +106,12 @@ constexpr Key kTime[] = {
      .range = {.lo = 0, .hi = 0.1, .lo_open = true, .reason = "a sleeping grain must be near balance"},
      .plausible = {1e-4, 0.1},
      .about = "share of its weight by which forces on a sleeping grain may be out of balance"},
+    {.name = "short_steps_below",
+     .dimension = Dimension::length,
+     .range = positive("it is a diameter"),
+     .plausible = {1e-7, 1e-2},
+     .about = "grains of a smaller diameter take several short steps for each step of the others; none: all "
+              "take the same"},
     {.name = "seed",
      .kind = Kind::integer,
      .fallback = "1",

@@ -242,6 +242,7 @@ void write_time(Writer& out, const Scene& scene) {
   out.flag("allow_unstable", step.allow_unstable);
   out.flag("sleeping", step.sleeping);
   out.quantity("sleep_tolerance", step.sleep_tolerance, Dimension::dimensionless);
+  if (step.short_below) out.quantity("short_steps_below", *step.short_below, Dimension::length);
   out.raw("seed", fmt::format("{}", scene.seed));
 }
 

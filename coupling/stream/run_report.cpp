@@ -31,6 +31,7 @@ nlohmann::ordered_json run_report(const scene::Scene& scene, const RunOptions& o
   j["threads"] = o.threads;
   j["seed"] = scene.seed;
   j["time_step_s"] = step.step;
+  if (scene.step.short_below) j["short_steps"] = step.short_steps;
   j["time_step_limited_by"] = step.limited_by;
   j["time_step_rayleigh_fraction"] = step.rayleigh_fraction;
   j["time_step_collision_fraction"] = step.collision_fraction;

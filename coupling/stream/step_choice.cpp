@@ -70,6 +70,22 @@ double fastest_motion(const scene::Scene& scene, const dem::Model& model) {
   return speed;
 }
 
+/// How many steps of the smallest grains make one of the smallest of those that are not below the scene's
+/// limit: as many times as long a step they would be given.
+int short_steps(const scene::Scene& scene, const dem::Model& model,
+                const std::vector<dem::SmallestGrain>& smallest, const StepChoice& choice) {
+  if (!scene.step.short_below || smallest.empty()) return 1;
+  std::vector<dem::SmallestGrain> others = smallest;
+  for (dem::SmallestGrain& g : others) g.radius = std::max(g.radius, 0.5 * *scene.step.short_below);
+  const dem::StepLimits limits = dem::step_limits(model, others, choice.speed);
+  const double by_rayleigh = limits.rayleigh_time / choice.limits.rayleigh_time;
+  const double by_collision = std::isfinite(limits.collision_time)
+                                  ? limits.collision_time / choice.limits.collision_time
+                                  : by_rayleigh;
+  return static_cast<int>(
+      std::clamp(std::floor(std::min(by_rayleigh, by_collision) * (1 + 1e-9)), 1.0, double{kMostShortSteps}));
+}
+
 }  // namespace
 
 StepChoice choose_step(const scene::Scene& scene, const dem::Model& model) {
@@ -94,6 +110,12 @@ StepChoice choose_step(const scene::Scene& scene, const dem::Model& model) {
   choice.rayleigh_fraction = choice.step / choice.limits.rayleigh_time;
   choice.collision_fraction = choice.step / choice.limits.collision_time;
 
+  choice.short_steps = short_steps(scene, model, smallest, choice);
+  if (scene.step.short_below && choice.short_steps == 1)
+    choice.warnings.push_back(fmt::format(
+        "time.short_steps_below: {:.3g} um is less than twice the smallest diameter, {:.3g} um: all "
+        "grains take the same step",
+        1e6 * *scene.step.short_below, 2e6 * smallest_radius));
   if (choice.collision_fraction > kRefuseFraction && !scene.step.allow_unstable) {
     throw InputError(
         fmt::format("{}: time.step: {:.3g} s is {:.2g} of the collision time {:.3g} s, where contacts gain "
@@ -121,6 +143,7 @@ StepChoice choose_step(const scene::Scene& scene, const dem::Model& model) {
                     scene.file, choice.step, choice.speed * choice.step, smallest_radius,
                     0.5 * smallest_radius / choice.speed));
   }
+  choice.step *= choice.short_steps;
   return choice;
 }
 

@@ -91,6 +91,31 @@ TEST_F(Run, StoppedAndResumedGivesTheSameBits) {
   expect_same_run(at("whole"), at("parts"));
 }
 
+/// Powder of 10 to 50 um of which those below 20 um take two short steps.
+TEST_F(Run, TwoRatesOfStepsGiveTheSameBitsForAnyThreadsAndAfterAStop) {
+  const std::string sizes =
+      " --set 'particles.powder.diameter={ distribution = \"uniform\", min = \"10 um\", max = \"50 um\", "
+      "weight = \"number\" }' --set 'time.short_steps_below=\"20 um\"' ";
+  ASSERT_EQ(call("check " + kScene + sizes), 0) << err_;
+  EXPECT_NE(out_.find("short steps     2 of "), std::string::npos) << out_;
+  ASSERT_EQ(call("run " + kScene + " -o " + at("one") + kSmall + sizes + "--threads 1"), 0) << err_;
+  ASSERT_EQ(call("run " + kScene + " -o " + at("two") + kSmall + sizes + "--threads 2"), 0) << err_;
+  EXPECT_EQ(call("run " + kScene + " -o " + at("parts") + kSmall + sizes + "--until 3.3ms"), 75) << err_;
+  EXPECT_EQ(call("run " + kScene + " -o " + at("parts") + kSmall + sizes + "--resume"), 0) << err_;
+  expect_same_run(at("one"), at("two"));
+  expect_same_run(at("one"), at("parts"));
+  const Json j = Json::parse(slurp(at("one") + "/run.json"));
+  EXPECT_EQ(j.at("short_steps"), 2);
+  EXPECT_GT(last_frame(at("one")).size(), 50u);
+}
+
+TEST_F(Run, ShortStepsThatGainNothingAreNamed) {
+  ASSERT_EQ(call("check " + kScene + " --set 'time.short_steps_below=\"1 um\"'"), 0) << err_;
+  EXPECT_NE(err_.find("time.short_steps_below: 1 um is less than twice the smallest diameter"),
+            std::string::npos)
+      << err_;
+}
+
 TEST_F(Run, TheResolvedSceneGivesTheSameBits) {
   ASSERT_EQ(call("run " + kScene + " -o " + at("a") + kSmall), 0) << err_;
   ASSERT_EQ(call("run " + at("a") + "/scene.resolved.toml -o " + at("b") + " --no-figures --quiet"), 0)

@@ -144,6 +144,16 @@ TEST(Sleeping, NeedsGravity) {
   EXPECT_NE(message.find("time.sleeping: is true, and there is no gravity"), std::string::npos) << message;
 }
 
+TEST(ShortSteps, ExcludeSleepAndTheAccountOfEnergies) {
+  const std::string below = "time.short_steps_below=20 um";
+  EXPECT_EQ(read(kExampleScene, {below}).step.short_below, 20e-6);
+  EXPECT_EQ(read(kExampleScene).step.short_below, std::nullopt);
+  for (const char* other : {"time.sleeping=true", "output.energy=true"}) {
+    const std::string message = message_of(kExampleScene, {below, other});
+    EXPECT_NE(message.find("time.short_steps_below: does not go with"), std::string::npos) << message;
+  }
+}
+
 TEST(Overrides, AreValidatedAndNamedInMessages) {
   const std::pair<std::string, std::string> rows[] = {
       {"particles.feed.count=0", "--set particles.feed.count=0: particles.feed.count: 0 cannot be"},
@@ -153,6 +163,7 @@ TEST(Overrides, AreValidatedAndNamedInMessages) {
       {"title.x=5", "title: is a text and has nothing named \"x\" inside"},
       {"time.step=8", "8 has no unit; a time is due"},
       {"time.sleep_tolerance=0.5", "--set time.sleep_tolerance=0.5: time.sleep_tolerance: 0.5 cannot be"},
+      {"time.short_steps_below=0 um", "time.short_steps_below: 0 m cannot be"},
       {"time.sleep_tolerance=0", "time.sleep_tolerance: 0 cannot be"},
       {"title", "is not an assignment"},
       {"=5", "is not an assignment"},
@@ -194,6 +205,7 @@ TEST(Resolved, ReadsBackBitForBit) {
       read(kExampleScene, {"time.step=8.7 ns", "title=\"quote \\\" back \\\\ line\\nend \\u0001\"",
                            "walls.0.shape.plane.normal=[0.1, -0.0, 3.3]",
                            "walls.0.shape.plane.point=[\"-0 m\", \"0 m\", \"0 m\"]"}));
+  expect_same_after_resolving(read(kExampleScene, {"time.short_steps_below=17.3 um"}));
   expect_same_after_resolving(read(kExampleScene, {"output.energy=true", "time.allow_unstable=true",
                                                    "time.sleeping=true", "time.sleep_tolerance=0.01",
                                                    "walls.1.shape={box={lo=[\"0.1 mm\",\"0 m\",\"0 m\"],"

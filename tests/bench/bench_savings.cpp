@@ -1,11 +1,11 @@
-// Do beds and layers whose grains sleep come to the same answer as those whose grains do not, and how much
-// sooner?
+// Do beds and layers come to the same answer when steps leave out what they can, and how much sooner?
 //
-//     bench_sleeping [SEEDS [bed|bed-sjkr|layer]]
+//     bench_savings sleep|rates [SEEDS [bed|bed-sjkr|layer]]
 //
-// Contacts are chaotic in time, so single grains end elsewhere: means over beds of several seeds are
-// compared, from the same starts with sleep and without. A difference within 3 standard errors of the two
-// means counts as agreement.
+// `sleep`: grains at rest sleep; `rates`: only grains below 20 um take the steps that the smallest, of 5 um,
+// need. Contacts are chaotic in time, so single grains end elsewhere: means over beds of several seeds are
+// compared, from the same starts with the saving and without. A difference within 3 standard errors of the
+// two means counts as agreement.
 #include <fmt/format.h>
 #include <tbb/global_control.h>
 
@@ -24,9 +24,20 @@
 namespace interstice::dem {
 namespace {
 
-constexpr double kStep = 2e-7, kTolerance = 0.05;  // [s], -
-constexpr double kMean = 39.4e-6, kDeviation = 10.46e-6, kSmallest = 20e-6,
-                 kLargest = 65e-6;  // diameters [m]
+constexpr double kMean = 39.4e-6, kDeviation = 10.46e-6, kLargest = 65e-6;  // diameters [m]
+
+/// How a scene is run.
+struct Way {
+  double smallest;  // diameter [m]
+  double step;      // [s]: the same share of the Rayleigh time of the smallest that takes it
+  SimulationOptions options;
+};
+struct Saving {
+  const char *plain_name, *name;
+  Way plain, with;
+};
+const Saving kSleep{"awake", "sleeping", {20e-6, 2e-7, {}}, {20e-6, 2e-7, {.sleep_tolerance = 0.05}}};
+const Saving kTwoRates{"one step", "two rates", {5e-6, 5e-8, {}}, {5e-6, 2e-7, {.rates = {10e-6, 4}}}};
 
 struct Number {
   std::string name;
@@ -49,17 +60,17 @@ Model powder_on_floor(bool cohesion) {
   return m;
 }
 
-double normal_diameter(Random& random) {
+double normal_diameter(double smallest, Random& random) {
   for (;;) {
     double sum = -6;
     for (int i = 0; i < 12; ++i) sum += random.uniform(0, 1);
     const double d = kMean + kDeviation * sum;
-    if (d >= kSmallest && d <= kLargest) return d;
+    if (d >= smallest && d <= kLargest) return d;
   }
 }
 
 /// Grains in cells wider than the largest, in a box that grows upward.
-std::vector<NewGrain> loose_grains(std::size_t count, double x0, double length, double width,
+std::vector<NewGrain> loose_grains(std::size_t count, double smallest, double x0, double length, double width,
                                    std::uint64_t seed) {
   Random random(seed, 0);
   std::vector<NewGrain> grains;
@@ -68,7 +79,7 @@ std::vector<NewGrain> loose_grains(std::size_t count, double x0, double length, 
   const double cx = length / static_cast<double>(nx), cy = width / static_cast<double>(ny);
   for (std::size_t i = 0; i < count; ++i) {
     NewGrain g;
-    g.radius = 0.5 * normal_diameter(random);
+    g.radius = 0.5 * normal_diameter(smallest, random);
     const auto at = [&](std::size_t n, double cell) {
       return static_cast<double>(n) * cell + random.uniform(g.radius, cell - g.radius);
     };
@@ -112,12 +123,12 @@ double share_asleep(const Simulation& sim) {
 }
 
 /// 400 grains fall on 0.25 mm x 0.25 mm and come to rest.
-Numbers bed(bool cohesion, std::uint64_t seed, double tolerance) {
+Numbers bed(bool cohesion, std::uint64_t seed, const Way& way) {
   constexpr double side = 0.25e-3;
   Model m = powder_on_floor(cohesion);
   m.domain = {{0, 0, -1e-4}, {side, side, 1e-2}};
-  Simulation sim(m, kStep, {.sleep_tolerance = tolerance});
-  sim.add_grains(loose_grains(400, 0, side, side, seed));
+  Simulation sim(m, way.step, way.options);
+  sim.add_grains(loose_grains(400, way.smallest, 0, side, side, seed));
   const double settling = seconds_to(sim, 50e-3);
   const double rest = seconds_to(sim, 65e-3);
   const auto rows = sim.rows();
@@ -133,7 +144,7 @@ Numbers bed(bool cohesion, std::uint64_t seed, double tolerance) {
 }
 
 /// A blade spreads a heap of 500 grains 70 um high along a floor 0.26 mm wide, then all stands still.
-Numbers layer(std::uint64_t seed, double tolerance) {
+Numbers layer(std::uint64_t seed, const Way& way) {
   constexpr double width = 0.26e-3, gap = 70e-6, from = 0.4e-3, to = 1.0e-3;
   Model m = powder_on_floor(true);
   m.domain = {{-1e-3, 0, -1e-4}, {3e-3, width, 1e-2}};
@@ -141,8 +152,8 @@ Numbers layer(std::uint64_t seed, double tolerance) {
   m.walls.push_back({Box{{-0.1e-3, -1, gap}, {0, 2, 1e-2}}, 1});
   m.walls.push_back({Plane{{-0.1e-3, 0, 0}, {1, 0, 0}}, 1});
   m.walls.push_back({Plane{{2e-3, 0, 0}, {-1, 0, 0}}, 1});
-  Simulation sim(m, kStep, {.sleep_tolerance = tolerance});
-  sim.add_grains(loose_grains(500, 5e-6, 0.6e-3, width, seed));
+  Simulation sim(m, way.step, way.options);
+  sim.add_grains(loose_grains(500, way.smallest, 5e-6, 0.6e-3, width, seed));
   const double pour = seconds_to(sim, 20e-3);
   sim.set_wall_velocity(1, {0.05, 0, 0});
   const double spread = seconds_to(sim, 50e-3);
@@ -174,15 +185,17 @@ Spread spread_of(const std::vector<Numbers>& runs, std::size_t i) {
   return s;
 }
 
-void compare(const std::string& title, int seeds, const std::function<Numbers(std::uint64_t, double)>& run) {
-  std::vector<Numbers> plain, sleeping;
+void compare(const Saving& saving, const std::string& title, int seeds,
+             const std::function<Numbers(std::uint64_t, const Way&)>& run) {
+  std::vector<Numbers> plain, with;
   for (int seed = 1; seed <= seeds; ++seed) {
-    plain.push_back(run(static_cast<std::uint64_t>(seed), 0));
-    sleeping.push_back(run(static_cast<std::uint64_t>(seed), kTolerance));
+    plain.push_back(run(static_cast<std::uint64_t>(seed), saving.plain));
+    with.push_back(run(static_cast<std::uint64_t>(seed), saving.with));
   }
-  fmt::print("\n| {} | awake | sleeping | difference in standard errors |\n|---|---|---|---|\n", title);
+  fmt::print("\n| {} | {} | {} | difference in standard errors |\n|---|---|---|---|\n", title,
+             saving.plain_name, saving.name);
   for (std::size_t i = 0; i < plain[0].size(); ++i) {
-    const Spread a = spread_of(plain, i), b = spread_of(sleeping, i);
+    const Spread a = spread_of(plain, i), b = spread_of(with, i);
     const double error = std::sqrt((a.deviation * a.deviation + b.deviation * b.deviation) / seeds);
     fmt::print("| {} | {:.4g} ({:.2g}) | {:.4g} ({:.2g}) | {:+.1f} |\n", plain[0][i].name, a.mean,
                a.deviation, b.mean, b.deviation, error > 0 ? (b.mean - a.mean) / error : 0);
@@ -190,15 +203,20 @@ void compare(const std::string& title, int seeds, const std::function<Numbers(st
 }
 
 int main(int count, char** words) {
-  const int seeds = count > 1 ? std::atoi(words[1]) : 4;
-  const std::string part = count > 2 ? words[2] : "";
+  const std::string which = count > 1 ? words[1] : "", part = count > 3 ? words[3] : "";
+  if (which != "sleep" && which != "rates") {
+    fmt::print(stderr, "bench_savings sleep|rates [SEEDS [bed|bed-sjkr|layer]]\n");
+    return 2;
+  }
+  const Saving& saving = which == "sleep" ? kSleep : kTwoRates;
+  const int seeds = count > 2 ? std::atoi(words[2]) : 4;
   const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
   const auto wanted = [&](const char* name) { return part.empty() || part == name; };
   for (const bool cohesion : {false, true})
     if (wanted(cohesion ? "bed-sjkr" : "bed"))
-      compare(cohesion ? "bed, SJKR" : "bed, no cohesion", seeds,
-              [&](std::uint64_t seed, double tolerance) { return bed(cohesion, seed, tolerance); });
-  if (wanted("layer")) compare("layer spread by a blade", seeds, layer);
+      compare(saving, cohesion ? "bed, SJKR" : "bed, no cohesion", seeds,
+              [&](std::uint64_t seed, const Way& way) { return bed(cohesion, seed, way); });
+  if (wanted("layer")) compare(saving, "layer spread by a blade", seeds, layer);
   return 0;
 }
 
