@@ -196,6 +196,7 @@ void compare(const Saving& saving, const std::string& title, int seeds,
              saving.plain_name, saving.name);
   for (std::size_t i = 0; i < plain[0].size(); ++i) {
     const Spread a = spread_of(plain, i), b = spread_of(with, i);
+    if (a.mean == 0 && b.mean == 0) continue;  // nobody sleeps
     const double error = std::sqrt((a.deviation * a.deviation + b.deviation * b.deviation) / seeds);
     fmt::print("| {} | {:.4g} ({:.2g}) | {:.4g} ({:.2g}) | {:+.1f} |\n", plain[0][i].name, a.mean,
                a.deviation, b.mean, b.deviation, error > 0 ? (b.mean - a.mean) / error : 0);

@@ -1,7 +1,7 @@
 #!/bin/sh
 # What fields cost a run: 5,000 steps of a bed as of paper 004 (35,000 grains of 5 to 65 um on a floor), with a field of
 # 17.3 um voxels every 1,000 steps (the .vdb, the .vti, slices, lines, layers) and without, in turns.
-#   field_share.sh INTERSTICE BED.dump [ROUNDS]     BED: a text dump with columns x y z diameter
+#   field_share.sh INTERSTICE BED.dump [ROUNDS]     BED: a text dump with columns x y z and diameter or radius
 set -eu
 command=$(realpath "$1")
 bed=$(realpath "$2")
@@ -12,7 +12,7 @@ cd "$work"
 case $bed in *.gz) zcat "$bed" ;; *) cat "$bed" ;; esac | awk '
   /^ITEM: ATOMS/ { for (i = 3; i <= NF; ++i) at[$i] = i - 2; rows = 1; print "x [m],y [m],z [m],diameter [m]"; next }
   /^ITEM/ { rows = 0 }
-  rows { printf "%s,%s,%s,%s\n", $at["x"], $at["y"], $at["z"], $at["diameter"] }' > grains.csv
+  rows { printf "%s,%s,%s,%s\n", $at["x"], $at["y"], $at["z"], "diameter" in at ? $at["diameter"] : 2 * $at["radius"] }' > grains.csv
 cat > plain.toml <<'S'
 [domain]
 box = [["-0.1 mm", "3.1 mm"], ["-0.1 mm", "0.6 mm"], ["-0.1 mm", "2.2 mm"]]
