@@ -261,8 +261,9 @@ TEST_F(Run, ReportsWhatItDid) {
 
 // Figs. 10 to 13 of the compactors' paper: void fraction on three sections, and along y at 35 um in each.
 TEST_F(Run, DrawsThePapersSectionsAndLinesAtTheEndOfEachPhase) {
-  for (const char* name : {"static-walls", "compactors", "short-static-walls", "short-compactors",
-                           "quick-static-walls", "quick-compactors"}) {
+  for (const char* name :
+       {"static-walls", "compactors", "coarse-static-walls", "coarse-compactors", "short-static-walls",
+        "short-compactors", "quick-static-walls", "quick-compactors"}) {
     const scene::Scene scene =
         scene::read_scene(INTERSTICE_SOURCE_DIR "/data/scenes/" + std::string(name) + ".toml");
     ASSERT_EQ(scene.fields.size(), 1u) << name;
