@@ -45,27 +45,22 @@ struct OldEnds {
 }  // namespace
 
 PairContacts::PairContacts(const KeptMemories& kept, Precision precision, const Rates& rates)
-    : kept_(kept),
-      rates_(rates),
-      sliding_(precision),
-      rolling_(precision),
-      forces_(precision),
-      ring_forces_(precision),
-      kept_forces_(precision) {}
+    : memories_(kept, precision), rates_(rates), ring_forces_(precision), kept_forces_(precision) {}
 
 /// Empty places get a copy of a listed pair of their group, so that they can be worked on like any other.
 void PairContacts::place_pairs(const std::vector<PairRef>& found, const PairOrder& order) {
   listed_ = found.size();
   sweep_ = order.sweep;
   resize_tightly(pairs_, order.places);
-  bits_.assign(order.places / kLanes, {});
+  memories_.reset(order.places);
   for (std::size_t i = 0; i < found.size(); ++i) {
     const std::size_t k = order.place[i];
     pairs_[k] = found[i];
-    bits_[k / kLanes].list(k % kLanes);
+    memories_.list(k);
   }
-  for (std::size_t g = 0; g < bits_.size(); ++g) {
-    const auto listed = static_cast<std::size_t>(std::countr_one(bits_[g].listed));  // empty places come last
+  for (std::size_t g = 0; g < memories_.groups(); ++g) {
+    const auto listed =
+        static_cast<std::size_t>(std::countr_one(memories_.group(g).listed));  // empty places come last
     for (std::size_t lane = listed; lane < kLanes; ++lane) pairs_[g * kLanes + lane] = pairs_[g * kLanes];
   }
 }
@@ -73,49 +68,35 @@ void PairContacts::place_pairs(const std::vector<PairRef>& found, const PairOrde
 void PairContacts::replace(const std::vector<PairRef>& found, const PairClasses& classes,
                            const std::vector<GrainSite>& sites, const std::vector<std::uint32_t>& old_slot,
                            const Parts& parts, const std::vector<std::uint32_t>& further_ends) {
-  const std::vector<GroupBits> old_bits = std::move(bits_);
-  Reals old_sliding = std::move(sliding_), old_rolling = std::move(rolling_);
+  const ContactMemories old = std::move(memories_);
   const OldEnds old_ends{std::move(pairs_), std::move(first_end_), std::move(pair_of_end_)};
   pairs_ = {};
-  place_pairs(found, order_pairs(found, classes, parts, kept_.heat));
-  if (kept_.sliding) sliding_.reset(kSpringReals * pairs_.size());
-  if (kept_.rolling) rolling_.reset(kSpringReals * pairs_.size());
-  for_each_block({bits_.size(), kGroupsPerBlock}, [&](std::size_t, std::size_t begin, std::size_t end) {
+  place_pairs(found, order_pairs(found, classes, parts, old.kept().heat));
+  for_each_block({memories_.groups(), kGroupsPerBlock}, [&](std::size_t, std::size_t begin, std::size_t end) {
     for (std::size_t k = begin * kLanes; k < end * kLanes; ++k) {
-      const auto old = [&](std::uint32_t slot) { return old_slot.empty() ? slot : old_slot[slot]; };
-      const std::uint32_t a = old(pairs_[k].a), b = old(pairs_[k].b);
-      if (a == kNoSlot || b == kNoSlot || !is_listed(k)) continue;
+      const auto before = [&](std::uint32_t slot) { return old_slot.empty() ? slot : old_slot[slot]; };
+      const std::uint32_t a = before(pairs_[k].a), b = before(pairs_[k].b);
+      if (a == kNoSlot || b == kNoSlot || !memories_.is_listed(k)) continue;
       const std::size_t from = old_ends.find(a, b);
-      if (from == kNoPair) continue;
-      bits_[k / kLanes].inherit(k % kLanes, old_bits[from / kLanes], from % kLanes);
-      if (kept_.sliding) copy_spring(old_sliding, from, sliding_, k);
-      if (kept_.rolling) copy_spring(old_rolling, from, rolling_, k);
+      if (from != kNoPair) memories_.inherit(k, old, from);
     }
   });
   ring_ = make_ring(sweep_, pairs_, first_end_, build_adjacency(sites), further_ends);
   ring_forces_.reset(ring_.places * kEndReals);
   kept_forces_.reset(ring_.kept * kEndReals);
-  forces_.reset(0);
-  if (kept_.heat) heat_.assign(pairs_.size(), {});
-}
-
-void PairContacts::set_touching(std::size_t k, const TangentialSpring<double>& sliding,
-                                const TangentialSpring<double>& rolling) {
-  bits_[k / kLanes].touch(k % kLanes);
-  if (kept_.sliding) set_spring(sliding_, k, sliding);
-  if (kept_.rolling) set_spring(rolling_, k, rolling);
-}
-
-void PairContacts::keep_forces(bool keep) {
-  const std::size_t n = keep ? 3 * pairs_.size() : 0;
-  if (forces_.size() != n) forces_.reset(n);
 }
 
 PairView PairContacts::view() {
-  const auto data = [](Reals& reals) { return reals.empty() ? nullptr : reals.data(); };
-  return {bits_.size(),        pairs_.data(),  ring_.of_pair.data(),
-          bits_.data(),        data(sliding_), data(rolling_),
-          ring_forces_.data(), data(forces_),  heat_.empty() ? nullptr : heat_.data()};
+  const MemoryView m = memories_.view();
+  return {memories_.groups(),
+          pairs_.data(),
+          ring_.of_pair.data(),
+          m.bits,
+          m.sliding,
+          m.rolling,
+          ring_forces_.data(),
+          m.forces,
+          m.heat};
 }
 
 PairView PairContacts::shared_view() {
@@ -132,17 +113,16 @@ void PairContacts::fetch_shared(std::size_t block) {
 }
 
 std::size_t PairContacts::bytes() const {
-  return bytes_of(pairs_) + bytes_of(bits_) + bytes_of(ring_.rows) + bytes_of(ring_.count) +
-         bytes_of(ring_.of_pair) + bytes_of(ring_.nobodys) + bytes_of(ring_.shared) + sliding_.bytes() +
-         rolling_.bytes() + forces_.bytes() + ring_forces_.bytes() + kept_forces_.bytes() + bytes_of(heat_) +
-         bytes_of(first_end_) + bytes_of(pair_of_end_);
+  return memories_.bytes() + bytes_of(pairs_) + bytes_of(ring_.rows) + bytes_of(ring_.count) +
+         bytes_of(ring_.of_pair) + bytes_of(ring_.nobodys) + bytes_of(ring_.shared) + ring_forces_.bytes() +
+         kept_forces_.bytes() + bytes_of(first_end_) + bytes_of(pair_of_end_);
 }
 
 std::vector<PairEnds> PairContacts::build_adjacency(const std::vector<GrainSite>& sites) {
   std::vector<std::uint32_t>& first = first_end_;
   first.assign(sites.size() + 1, 0);
   for (std::size_t k = 0; k < pairs_.size(); ++k) {
-    if (!is_listed(k)) continue;
+    if (!memories_.is_listed(k)) continue;
     ++first[pairs_[k].a + 1];
     ++first[pairs_[k].b + 1];
   }
@@ -154,7 +134,7 @@ std::vector<PairEnds> PairContacts::build_adjacency(const std::vector<GrainSite>
   };
   std::vector<std::uint32_t> next(first.begin(), first.end() - 1);
   for (std::uint32_t k = 0; k < pairs_.size(); ++k) {
-    if (!is_listed(k)) continue;
+    if (!memories_.is_listed(k)) continue;
     ends[next[pairs_[k].a]++] = end_of(pairs_[k].b, k);
     ends[next[pairs_[k].b]++] = end_of(pairs_[k].a, k);
   }

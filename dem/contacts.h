@@ -10,12 +10,11 @@
 #include <vector>
 
 #include "base/vec3.h"
-#include "dem/contact_memory.h"
+#include "dem/contact_memories.h"
 #include "dem/end_places.h"
 #include "dem/grains.h"
 #include "dem/neighbours.h"
 #include "dem/rates.h"
-#include "dem/springs.h"
 #include "dem/sweep.h"
 
 namespace interstice::dem {
@@ -58,16 +57,10 @@ class PairContacts {
   std::size_t places() const { return pairs_.size(); }
   std::size_t listed() const { return listed_; }
   const PairRef& pair(std::size_t k) const { return pairs_[k]; }
-  ContactState state(std::size_t k) const { return bits_[k / kLanes].state(k % kLanes); }
-  bool touching(std::size_t k) const { return state(k) == ContactState::touching; }
-  Vec3d force(std::size_t k) const { return vector_at(forces_, k); }  // on a, in the last step [N]
-  /// Zero unless touching.
-  TangentialSpring<double> sliding(std::size_t k) const { return spring_at(sliding_, k); }
-  TangentialSpring<double> rolling(std::size_t k) const { return spring_at(rolling_, k); }
-  const PairHeat& heat(std::size_t k) const { return heat_[k]; }
-  /// Makes a pair touch, with these springs (those that are not kept are left out).
-  void set_touching(std::size_t k, const TangentialSpring<double>& sliding,
-                    const TangentialSpring<double>& rolling);
+  bool touching(std::size_t k) const { return memories_.state(k) == ContactState::touching; }
+  /// Of pairs by place; forces are those on a.
+  ContactMemories& memories() { return memories_; }
+  const ContactMemories& memories() const { return memories_; }
 
   /// The pairs of the grain in `slot`, quick ones first, each by ascending id of the partner; none for a
   /// grain added since the list was made.
@@ -82,8 +75,6 @@ class PairContacts {
            });
   }
   const Sweep& sweep() const { return sweep_; }
-  /// For a step after which forces are asked for; else force() is zero.
-  void keep_forces(bool keep);
   /// What the kernels see of pairs shared by parts, and of those inside parts.
   PairView shared_view();
   PairView view();
@@ -103,21 +94,17 @@ class PairContacts {
   static constexpr std::uint32_t kNoSlot = 0xffffffffu;
 
  private:
-  bool is_listed(std::size_t k) const { return bits_[k / kLanes].is_listed(k % kLanes); }
   void place_pairs(const std::vector<PairRef>& found, const PairOrder& order);
   std::vector<PairEnds> build_adjacency(const std::vector<GrainSite>& sites);
 
-  KeptMemories kept_;
+  ContactMemories memories_;
   Rates rates_;
   Sweep sweep_;
   std::size_t listed_ = 0;
   LargeVector<PairRef> pairs_;
-  std::vector<GroupBits> bits_;
   EndRing ring_;
-  Reals sliding_, rolling_, forces_;
   Reals ring_forces_, kept_forces_;       // by ring_
   std::vector<std::uint32_t> first_end_;  // of each slot, and one past the last
-  std::vector<PairHeat> heat_;
   std::vector<std::uint32_t> pair_of_end_;
 };
 

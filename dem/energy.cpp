@@ -37,7 +37,7 @@ double kinetic_energy(const GrainRow& g) {
 
 StoredEnergy stored_in_pair(const Simulation& sim, std::size_t k) {
   const PairContacts& list = sim.pair_contacts();
-  if (list.state(k) == ContactState::apart) return {};
+  if (list.memories().state(k) == ContactState::apart) return {};
   const GrainRow a = sim.row(list.pair(k).a);
   const GrainRow b = sim.row(list.pair(k).b);
   const double d = norm(separation(a.position(), b.position(), sim.search_space()));
@@ -46,8 +46,8 @@ StoredEnergy stored_in_pair(const Simulation& sim, std::size_t k) {
   stored.normal = normal_potential(sim.model().laws, sim.constants(a.material, b.material),
                                    a.radius * b.radius / (a.radius + b.radius), overlap,
                                    d > 0 ? sphere_sphere_area_integral(a.radius, b.radius, d, overlap) : 0);
-  stored.tangential = spring_energy(list.sliding(k));
-  stored.rolling = spring_energy(list.rolling(k));
+  stored.tangential = spring_energy(list.memories().sliding(k));
+  stored.rolling = spring_energy(list.memories().rolling(k));
   return stored;
 }
 

@@ -26,10 +26,10 @@ Sum sum_of(const Simulation& sim, const SearchSpace& space, std::uint32_t slot) 
   const PairContacts& pairs = sim.pair_contacts();
   Sum sum;
   for (const Adjacent& e : pairs.of(slot)) {
-    if (pairs.state(e.pair) == ContactState::apart) continue;
+    if (pairs.memories().state(e.pair) == ContactState::apart) continue;
     const GrainSite other = sim.site(e.slot);
     const Vec3d across = separation(other.position(), grain.position(), space);
-    const Vec3d force = (e.second ? -1.0 : 1.0) * pairs.force(e.pair);
+    const Vec3d force = (e.second ? -1.0 : 1.0) * pairs.memories().force(e.pair);
     sum.add((grain.radius / (grain.radius + other.radius)) * across, force);
     sum.contacts += pairs.touching(e.pair) ? 1 : 0;
   }

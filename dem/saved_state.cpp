@@ -65,8 +65,8 @@ SavedState Simulation::save() const {
     for (const Adjacent& e : pair_contacts_.of(slot)) {
       if (e.second || !pair_contacts_.touching(e.pair)) continue;
       pair_ids.insert(pair_ids.end(), {g.id, grains_.labels()[e.slot].id});
-      append(pair_springs, pair_contacts_.sliding(e.pair));
-      append(pair_springs, pair_contacts_.rolling(e.pair));
+      append(pair_springs, pair_contacts_.memories().sliding(e.pair));
+      append(pair_springs, pair_contacts_.memories().rolling(e.pair));
     }
     for (const WallContact& w : wall_contacts_.of(slot)) {
       if (!w.touching()) continue;
@@ -186,16 +186,18 @@ void Simulation::restore_springs(const SavedState& s) {
   for (std::size_t k = 0; 2 * k < pair_ids.size(); ++k) {
     for (const Adjacent& e : pair_contacts_.of(slot_of_id.at(static_cast<std::size_t>(pair_ids[2 * k])))) {
       if (grains_.labels()[e.slot].id != pair_ids[2 * k + 1]) continue;
-      pair_contacts_.set_touching(e.pair, spring_from(pair_springs, kRealsPerContact * k),
-                                  spring_from(pair_springs, kRealsPerContact * k + kRealsPerSpring));
+      pair_contacts_.memories().set_touching(
+          e.pair, spring_from(pair_springs, kRealsPerContact * k),
+          spring_from(pair_springs, kRealsPerContact * k + kRealsPerSpring));
     }
   }
   for (std::size_t k = 0; 2 * k < wall_ids.size(); ++k) {
     const std::uint32_t slot = slot_of_id.at(static_cast<std::size_t>(wall_ids[2 * k]));
     for (const std::uint32_t place : wall_contacts_.places_of(slot)) {
       if (wall_contacts_.wall(place) != wall_ids[2 * k + 1]) continue;
-      wall_contacts_.set_touching(place, spring_from(wall_springs, kRealsPerContact * k),
-                                  spring_from(wall_springs, kRealsPerContact * k + kRealsPerSpring));
+      wall_contacts_.memories().set_touching(
+          place, spring_from(wall_springs, kRealsPerContact * k),
+          spring_from(wall_springs, kRealsPerContact * k + kRealsPerSpring));
     }
   }
 }

@@ -56,7 +56,7 @@ ContactStatistics contact_statistics(const Simulation& sim) {
   const SearchSpace space = sim.search_space();
   for_touching_pairs(sim, [&](std::uint32_t slot_a, std::uint32_t slot_b, std::uint32_t pair) {
     const GrainSite a = sim.site(slot_a), b = sim.site(slot_b);
-    const Vec3d force = sim.pair_contacts().force(pair);
+    const Vec3d force = sim.pair_contacts().memories().force(pair);
     const Vec3d apart = separation(a.position(), b.position(), space);
     const double magnitude = norm(force), distance = norm(apart);
     ++s.contacts;

@@ -71,8 +71,8 @@ StepView Simulation::step_view(const PairView& pairs) {
 
 void Simulation::evaluate_and_move(bool begin_next) {
   if (!begin_next) grains_.accelerations().resize(grains_.size());
-  pair_contacts_.keep_forces(!begin_next || options_.energies);
-  wall_contacts_.keep_forces(!begin_next || options_.energies);
+  pair_contacts_.memories().keep_forces(!begin_next || options_.energies);
+  wall_contacts_.memories().keep_forces(!begin_next || options_.energies);
   grains_.with_rows([&](auto& rows) {
     if (!rest_) return evaluate_and_move<false>(rows.data(), begin_next);
     looks_ = RestRule::is_look(step_);

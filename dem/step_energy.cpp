@@ -24,7 +24,7 @@ void Simulation::add_heat_of(std::size_t i) {
   GrainEnergy& e = energies_[id_of(i)];
   for (const Adjacent& partner : pair_contacts_.of(i)) {
     if (rest_ && (sleepers_.frozen(partner.pair / kLanes) >> partner.pair % kLanes & 1) != 0) continue;
-    const PairHeat& heat = pair_contacts_.heat(partner.pair);
+    const PairHeat& heat = pair_contacts_.memories().heat(partner.pair);
     e.heat += {0.5 * heat.damping, 0.5 * heat.sliding, 0.5 * heat.rolling, 0.5 * heat.adhesion};
   }
   double power = 0;

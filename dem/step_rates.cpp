@@ -94,8 +94,8 @@ void Simulation::put_beating_first(std::vector<std::uint32_t>& order) const {
 
 void Simulation::evaluate_and_move_rated(bool begin_next) {
   if (!begin_next) grains_.accelerations().resize(grains_.size());
-  pair_contacts_.keep_forces(!begin_next);
-  wall_contacts_.keep_forces(!begin_next);
+  pair_contacts_.memories().keep_forces(!begin_next);
+  wall_contacts_.memories().keep_forces(!begin_next);
   slow_.resize(groups_for(grains_.size()));
   grains_.with_rows([&](auto& rows) { evaluate_and_move_rated(rows.data(), begin_next); });
   grains_.set_stepping(begin_next);

@@ -10,7 +10,7 @@
 namespace interstice::dem {
 
 WallContacts::WallContacts(const KeptMemories& kept, Precision precision, const Rates& rates)
-    : kept_(kept), rates_(rates), sliding_(precision), rolling_(precision), forces_(precision) {}
+    : memories_(kept, precision), rates_(rates) {}
 
 void WallContacts::replace(const std::vector<GrainSite>& sites, const std::vector<GrainSite>& reaching,
                            const std::vector<Shape>& walls, double reach,
@@ -27,22 +27,15 @@ void WallContacts::replace(const std::vector<GrainSite>& sites, const std::vecto
 
   const WallContacts old = std::move(*this);  // lists, bits and springs are made anew below
   place(found, sites.size());
-  bits_.assign(places() / kLanes, {});
-  if (kept_.sliding) sliding_.reset(kSpringReals * places());
-  if (kept_.rolling) rolling_.reset(kSpringReals * places());
-  forces_.reset(0);
-  if (kept_.heat) heat_.assign(places(), {}), power_.assign(places(), 0);
+  memories_.reset(places());
+  if (memories_.kept().heat) power_.assign(places(), 0);
   for (std::size_t s = 0; s < sites.size(); ++s) {
     const std::size_t before = old_slot.empty() ? s : old_slot[s];
     for (const std::uint32_t k : places_of(s)) {
-      bits_[k / kLanes].list(k % kLanes);
+      memories_.list(k);
       if (before == PairContacts::kNoSlot) continue;
-      for (const std::uint32_t from : old.places_of(before)) {
-        if (old.walls_[from] != walls_[k]) continue;
-        bits_[k / kLanes].inherit(k % kLanes, old.bits_[from / kLanes], from % kLanes);
-        if (kept_.sliding) copy_spring(old.sliding_, from, sliding_, k);
-        if (kept_.rolling) copy_spring(old.rolling_, from, rolling_, k);
-      }
+      for (const std::uint32_t from : old.places_of(before))
+        if (old.walls_[from] == walls_[k]) memories_.inherit(k, old.memories_, from);
     }
   }
 }
@@ -92,37 +85,25 @@ void WallContacts::place_ends(const PairContacts& pairs) {
 WallContact WallContacts::at(std::size_t k) const {
   WallContact contact;
   contact.slot = slots_[k], contact.wall = walls_[k];
-  contact.state = bits_[k / kLanes].state(k % kLanes);
-  contact.sliding = spring_at(sliding_, k);
-  contact.rolling = spring_at(rolling_, k);
-  contact.force = vector_at(forces_, k);
-  if (kept_.heat) contact.heat = heat_[k], contact.power = power_[k];
+  contact.state = memories_.state(k);
+  contact.sliding = memories_.sliding(k);
+  contact.rolling = memories_.rolling(k);
+  contact.force = memories_.force(k);
+  if (memories_.kept().heat) contact.heat = memories_.heat(k), contact.power = power_[k];
   return contact;
 }
 
-void WallContacts::set_touching(std::size_t k, const TangentialSpring<double>& sliding,
-                                const TangentialSpring<double>& rolling) {
-  bits_[k / kLanes].touch(k % kLanes);
-  if (kept_.sliding) set_spring(sliding_, k, sliding);
-  if (kept_.rolling) set_spring(rolling_, k, rolling);
-}
-
-void WallContacts::keep_forces(bool keep) {
-  const std::size_t n = keep ? 3 * places() : 0;
-  if (forces_.size() != n) forces_.reset(n);
-}
-
 WallView WallContacts::view() {
-  const auto data = [](auto& reals) { return reals.empty() ? nullptr : reals.data(); };
-  return {slots_.data(),  walls_.data(), ends_.data(), bits_.data(), data(sliding_),
-          data(rolling_), data(forces_), data(heat_),  data(power_)};
+  const MemoryView m = memories_.view();
+  return {slots_.data(), walls_.data(), ends_.data(),
+          m.bits,        m.sliding,     m.rolling,
+          m.forces,      m.heat,        power_.empty() ? nullptr : power_.data()};
 }
 
 std::size_t WallContacts::bytes() const {
   const auto of = [](const auto& v) { return v.capacity() * sizeof(v[0]); };
-  return of(slots_) + of(walls_) + of(ends_) + of(bits_) + of(first_quick_) + sliding_.bytes() +
-         rolling_.bytes() + forces_.bytes() + of(heat_) + of(power_) + of(first_group_) + of(first_) +
-         of(place_);
+  return memories_.bytes() + of(slots_) + of(walls_) + of(ends_) + of(power_) + of(first_group_) +
+         of(first_quick_) + of(first_) + of(place_);
 }
 
 }  // namespace interstice::dem

@@ -10,10 +10,9 @@
 #include <vector>
 
 #include "base/shapes.h"
-#include "dem/contact_memory.h"
+#include "dem/contact_memories.h"
 #include "dem/grains.h"
 #include "dem/rates.h"
-#include "dem/springs.h"
 
 namespace interstice::dem {
 
@@ -60,8 +59,8 @@ class WallContacts {
   std::uint32_t slot(std::size_t k) const { return slots_[k]; }
   std::uint32_t wall(std::size_t k) const { return walls_[k]; }
   WallContact at(std::size_t k) const;
-  void set_touching(std::size_t k, const TangentialSpring<double>& sliding,
-                    const TangentialSpring<double>& rolling);
+  /// By place; forces are those on the grains.
+  ContactMemories& memories() { return memories_; }
   /// The first group of a block's grains; of one past the last block, how many there are.
   std::size_t first_group(std::size_t block) const { return first_group_[block]; }
   /// Of these the first of quick grains, which come last.
@@ -76,8 +75,6 @@ class WallContacts {
   auto of(std::size_t slot) const {
     return places_of(slot) | std::views::transform([this](std::uint32_t k) { return at(k); });
   }
-  /// For a step after which forces are asked for; else they are zero.
-  void keep_forces(bool keep);
   WallView view();
   std::size_t bytes() const;
 
@@ -93,12 +90,9 @@ class WallContacts {
 
   void place(const FoundByBlock& found, std::size_t slots);
 
-  KeptMemories kept_;
+  ContactMemories memories_;
   Rates rates_;
   std::vector<std::uint32_t> slots_, walls_, ends_;  // by place
-  std::vector<GroupBits> bits_;
-  Reals sliding_, rolling_, forces_;
-  std::vector<PairHeat> heat_;
   std::vector<double> power_;
   std::vector<std::uint32_t> first_group_{0};  // by block
   std::vector<std::uint32_t> first_quick_;     // the same

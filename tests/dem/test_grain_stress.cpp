@@ -110,9 +110,9 @@ TEST(GrainStress, SumsToTheVirialOfAllContacts) {
     trace += (all.stress[0][i] + all.stress[1][i] + all.stress[2][i]) * volume_of(columns.radius[i]);
   const PairContacts& pairs = sim.pair_contacts();
   for (std::size_t k = 0; k < pairs.places(); ++k) {
-    if (pairs.state(k) == ContactState::apart) continue;
+    if (pairs.memories().state(k) == ContactState::apart) continue;
     const GrainRow &a = rows[pairs.pair(k).a], &b = rows[pairs.pair(k).b];
-    const double work = dot(separation(b.position(), a.position(), space), pairs.force(k));
+    const double work = dot(separation(b.position(), a.position(), space), pairs.memories().force(k));
     expected += work, magnitude += std::abs(work);
   }
   for (std::size_t slot = 0; slot < rows.size(); ++slot)

@@ -60,7 +60,8 @@ ForceByPair forces_after(const Model& model, double dt, const SavedState& state,
   for (std::size_t k = 0; k < contacts.places(); ++k) {
     if (!contacts.touching(k)) continue;
     const std::int64_t a = sim.row(contacts.pair(k).a).id, b = sim.row(contacts.pair(k).b).id;
-    forces[{std::min(a, b), std::max(a, b)}] = a < b ? contacts.force(k) : -contacts.force(k);
+    forces[{std::min(a, b), std::max(a, b)}] =
+        a < b ? contacts.memories().force(k) : -contacts.memories().force(k);
   }
   return forces;
 }

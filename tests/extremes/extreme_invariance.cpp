@@ -149,9 +149,9 @@ bool has_every_memory(const Simulation& sim) {
   for (std::size_t k = 0; k < list.places(); ++k) {
     const GrainSite a = sim.site(list.pair(k).a), b = sim.site(list.pair(k).b);
     const bool apart = norm(a.position() - b.position()) > a.radius + b.radius;
-    neck = neck || (list.state(k) == ContactState::touching && apart);
-    gap = gap || list.state(k) == ContactState::attracting;
-    rolls = rolls || norm(list.rolling(k).force) > 0;
+    neck = neck || (list.memories().state(k) == ContactState::touching && apart);
+    gap = gap || list.memories().state(k) == ContactState::attracting;
+    rolls = rolls || norm(list.memories().rolling(k).force) > 0;
   }
   return neck && gap && rolls;
 }

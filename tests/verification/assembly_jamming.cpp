@@ -55,7 +55,7 @@ void relax(std::vector<NewGrain>& grains, double radius, std::int64_t steps, dou
     if (!contacts.touching(k)) continue;
     const Vec3d apart = separation(sim.site(contacts.pair(k).a).position(),
                                    sim.site(contacts.pair(k).b).position(), sim.search_space());
-    virial += dot(contacts.force(k), apart);
+    virial += dot(contacts.memories().force(k), apart);
   }
   *pressure = virial / (3 * kSide * kSide * kSide);
 }

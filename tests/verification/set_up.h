@@ -93,7 +93,7 @@ inline ContactNow contact_of(const Simulation& sim) {
   }
   const PairContacts& p = sim.pair_contacts();
   for (std::size_t k = 0; k < p.places(); ++k) {
-    if (p.state(k) != ContactState::apart) return {p.state(k), p.force(k)};
+    if (p.memories().state(k) != ContactState::apart) return {p.memories().state(k), p.memories().force(k)};
   }
   return {};
 }
