@@ -194,7 +194,7 @@ void Simulation::remove_leavers() {
   lost_ += static_cast<std::int64_t>(grains_.size() - kept.size());
   grains_.take(kept);
   left_ = false;
-  list_valid_ = false;
+  if (list_valid_) drop_from_lists(kept);
   doubt_ = true;
 }
 

@@ -169,6 +169,7 @@ class Simulation {
   void take_report(const std::vector<PassReport>& reports);
   bool inside(const Vec3d& position) const;
   void remove_leavers();
+  void drop_from_lists(const std::vector<std::uint32_t>& kept);
   double near_reach(double speed) const;
   double speed_of(std::size_t slot) const;
   double candidate_reach_left(std::size_t slot) const;
@@ -178,6 +179,7 @@ class Simulation {
   bool candidates_last() const;
   void update_lists();
   void rebuild();
+  void note_ids();
   void note_materials();
   double longest_reach(double largest) const;
   void find_candidates(const std::vector<GrainSite>& sites, double longest);
@@ -269,6 +271,7 @@ class Simulation {
   double reach_of_walls_ = 0;           // the same for walls [m]
   std::vector<Shape> refreshed_walls_;  // as they stood when walls near grains were listed
   std::vector<std::uint32_t> built_ids_;  // by slot when the list was built; slots may have changed since
+  std::vector<std::uint32_t> stood_at_;   // by slot, where grains left: the slot in the list of pairs
   std::int64_t rebuilds_ = 0, sorted_at_ = -1;
 };
 

@@ -100,12 +100,32 @@ bool Simulation::candidates_last() const {
   return std::find(short_of.begin(), short_of.end(), 1) == short_of.end();
 }
 
+/// Only the grains in these slots are left: what is known of their neighbours still holds.
+void Simulation::drop_from_lists(const std::vector<std::uint32_t>& kept) {
+  std::vector<std::uint32_t> new_slot(reach_.size(), PairContacts::kNoSlot);
+  std::vector<std::uint32_t> stood_at(kept.size());
+  for (std::uint32_t s = 0; s < kept.size(); ++s) {
+    new_slot[kept[s]] = s;
+    reach_[s] = reach_[kept[s]];
+    stood_at[s] = stood_at_.empty() ? kept[s] : stood_at_[kept[s]];
+  }
+  stood_at_ = std::move(stood_at);
+  reach_.resize(kept.size());
+  std::size_t left = 0;
+  for (const PairRef& c : candidates_) {
+    const PairRef now{new_slot[c.a], new_slot[c.b]};
+    if (now.a != PairContacts::kNoSlot && now.b != PairContacts::kNoSlot) candidates_[left++] = now;
+  }
+  candidates_.resize(left);
+}
+
 void Simulation::update_lists() {
-  if (list_valid_ && !strayed_ &&
+  if (list_valid_ && !strayed_ && stood_at_.empty() &&
       wall_travel() + (options_.rates.two() ? dt_ * fastest_wall() : 0) <= reach_of_walls_)
     return;
   if (list_valid_ && candidates_last()) {
-    refresh({}, grains_.sites());
+    refresh(stood_at_, grains_.sites());
+    if (!stood_at_.empty()) note_ids();
   } else {
     rebuild();
   }
@@ -162,16 +182,20 @@ void Simulation::rebuild() {
   std::vector<std::uint32_t> old_slot(sites.size());
   for (std::size_t s = 0; s < sites.size(); ++s)
     old_slot[s] = slot_of_id[static_cast<std::size_t>(sites[s].id)];
-  built_ids_.resize(sites.size());
-  for (std::size_t s = 0; s < sites.size(); ++s) {
-    built_ids_[s] = static_cast<std::uint32_t>(sites[s].id);
-    grains_.labels()[s].built = sites[s].position();
-  }
+  note_ids();
+  for (std::size_t s = 0; s < sites.size(); ++s) grains_.labels()[s].built = sites[s].position();
   note_materials();
   find_candidates(sites, longest_reach(largest));
   refresh(old_slot, sites);
   list_valid_ = true;
   ++rebuilds_;
+}
+
+/// The list of pairs goes by the present slots.
+void Simulation::note_ids() {
+  built_ids_.resize(grains_.size());
+  for (std::size_t s = 0; s < built_ids_.size(); ++s) built_ids_[s] = grains_.labels()[s].id;
+  stood_at_.clear();
 }
 
 void Simulation::note_materials() {

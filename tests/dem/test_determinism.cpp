@@ -114,6 +114,48 @@ TEST(SameBits, ForAMirroredWorld) {
   }
 }
 
+/// The cloud without sides: grains leave all the time while others touch.
+Simulation leaking_cloud(const SimulationOptions& options) {
+  const Simulation closed = falling_cloud(400);
+  Model m = closed.model();
+  m.boundary = {AxisBoundary::open, AxisBoundary::open, AxisBoundary::open};
+  std::vector<NewGrain> grains;
+  for (const GrainRow& g : closed.rows())
+    grains.push_back({g.position(), g.radius, 3.0 * g.velocity(), g.spin(), 0, 0});
+  Simulation sim(m, closed.time_step(), options);
+  sim.add_grains(grains);
+  return sim;
+}
+
+TEST(SameBits, WhileGrainsLeave) {
+  const auto run = [](const SimulationOptions& options, std::int64_t at_once) {
+    Simulation sim = leaking_cloud(options);
+    for (std::int64_t s = 0; s < 6000; s += at_once) sim.advance(at_once);
+    EXPECT_GT(sim.grains_lost(), 40);
+    EXPECT_GT(sim.grains(), 200u);
+    GrainColumns c;
+    sim.copy_columns(c);
+    return c;
+  };
+  const GrainColumns chosen = run({}, 6000);
+  expect_same_bits(chosen, run({.reference = true}, 6000));
+  expect_same_bits(chosen, run({.skin = 2e-5}, 6000));
+  expect_same_bits(chosen, run({.skin = 4e-5}, 1));
+  const Rates rates{12e-6, 4};
+  const GrainColumns rated = run({.rates = rates}, 6000);
+  expect_same_bits(rated, run({.reference = true, .rates = rates}, 6000));
+  expect_same_bits(rated, run({.skin = 2e-5, .rates = rates}, 2));
+}
+
+/// A grain that leaves does not make anyone search for neighbours anew.
+TEST(Lists, OutlastGrainsThatLeave) {
+  Simulation sim = leaking_cloud({.skin = 1e-4});
+  sim.advance(1);
+  const std::int64_t before = sim.rebuilds();
+  while (sim.grains_lost() < 40) sim.advance(1);
+  EXPECT_LT(2 * (sim.rebuilds() - before), sim.grains_lost());  // grains that fly make some
+}
+
 TEST(SavedState, OfOtherWallsIsRefused) {
   Simulation a = falling_cloud(10);
   a.advance(5);
