@@ -13,6 +13,10 @@ namespace {
 /// Ids and slots are kept in 32 bits, of which one number means none.
 constexpr std::int64_t kMostGrains = PairContacts::kNoSlot;
 
+/// Grains that crossed an open face are taken away every so many steps: each time the lists of the others are
+/// made anew.
+constexpr std::int64_t kStepsPerFarewell = 64;
+
 Vec3d offset_at(const Vec3d& offset, const Vec3d& velocity, double steps, double dt) {
   return offset + (steps * dt) * velocity;
 }
@@ -170,7 +174,7 @@ void Simulation::take_report(const std::vector<PassReport>& reports) {
   begun_ = true;
   grains_.set_stepping(true);
   left_ = left_ || left;
-  if (left_ && !options_.rates.two()) remove_leavers();
+  if (!options_.rates.two()) remove_leavers();
 }
 
 bool Simulation::inside(const Vec3d& position) const {
@@ -183,6 +187,7 @@ bool Simulation::inside(const Vec3d& position) const {
 }
 
 void Simulation::remove_leavers() {
+  if (!left_ || step_ % kStepsPerFarewell != 0) return;
   std::vector<std::uint32_t> kept;
   for (std::uint32_t i = 0; i < grains_.size(); ++i) {
     if (inside(grains_.site(i).position())) {
@@ -191,9 +196,10 @@ void Simulation::remove_leavers() {
       note_leaver(i);
     }
   }
+  left_ = false;
+  if (kept.size() == grains_.size()) return;  // they came back
   lost_ += static_cast<std::int64_t>(grains_.size() - kept.size());
   grains_.take(kept);
-  left_ = false;
   if (list_valid_) drop_from_lists(kept);
   doubt_ = true;
 }

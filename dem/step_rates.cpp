@@ -244,7 +244,7 @@ void Simulation::finish_beats() {
     place_walls(beat);
     grains_.with_rows([&](auto& rows) { work_on_beat(rows.data(), beat + 1 == beats); });
   }
-  if (left_) remove_leavers();
+  remove_leavers();
 }
 
 template <class Real>
