@@ -200,7 +200,11 @@ void Simulation::remove_leavers() {
   if (kept.size() == grains_.size()) return;  // they came back
   lost_ += static_cast<std::int64_t>(grains_.size() - kept.size());
   grains_.take(kept);
-  if (list_valid_) drop_from_lists(kept);
+  if (list_valid_ && !kept.empty()) {
+    drop_from_lists(kept);
+  } else {
+    list_valid_ = false;
+  }
   doubt_ = true;
 }
 

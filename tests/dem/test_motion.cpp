@@ -192,6 +192,21 @@ TEST(Boundaries, AGrainThatLeavesIsCountedAndGone) {
   EXPECT_EQ(columns(sim).id[0], 1);
 }
 
+TEST(Boundaries, TheLastGrainMayLeaveAndOthersCome) {
+  Model m = plain_model(powder(), {}, {});
+  m.domain = {{0, 0, 0}, {1e-3, 1e-3, 1e-3}};
+  for (const Rates& rates : {Rates{}, Rates{2e-5, 2}}) {
+    Simulation sim(m, 1e-6, {.rates = rates});
+    const std::vector<NewGrain> fast{grain({5e-4, 5e-4, 5e-4}, 1e-5, {1, 0, 0})};
+    for (int round = 1; round <= 2; ++round) {
+      sim.add_grains(fast);
+      sim.advance(1000);
+      EXPECT_EQ(sim.grains(), 0u);
+      EXPECT_EQ(sim.grains_lost(), round);
+    }
+  }
+}
+
 TEST(Boundaries, PeriodicPairsCollideThroughTheFace) {
   const double r = 20e-6;
   Model m = plain_model(powder(), {0.35, 0.3, 0.01, 0}, testing::with_rolling());
