@@ -194,9 +194,8 @@ class Simulation {
   StepView step_view(const PairView& pairs);
   void count_inserted_contacts();
   double inserted_on_wall(const GrainRow& grain, const WallContact& contact) const;
-  template <bool kSleep, class Real>
-  void evaluate_pairs(const StepView& view, std::size_t begin, std::size_t end, const PairRow<Real>* ahead,
-                      const PairRow<Real>* ahead_end);
+  template <class Real>
+  MemoryAhead rows_ahead(const PairRow<Real>* rows, std::size_t block, bool last) const;
   void add_lifting(std::size_t first, const Vec3<Each>& step);
   void add_heat(std::size_t group);
   void add_heat_of(std::size_t slot);
@@ -210,12 +209,11 @@ class Simulation {
   bool is_frozen(std::size_t slot, std::size_t wall) const;
   bool spares(std::size_t begin, std::size_t end) const;
   bool is_needed(std::size_t group) const { return watch_all_ || sleepers_.needed(group, looks_); }
-  bool spares_pairs(std::size_t begin, std::size_t end) const;
   template <class Real>
   void evaluate_frozen(const StepView& view, std::size_t group);
   bool is_left_out(std::size_t slot) const;
   template <class Real>
-  void evaluate_needed(const StepView& view, std::size_t begin, std::size_t end);
+  void evaluate_needed(const StepView& view, std::size_t begin, std::size_t end, const MemoryAhead& ahead);
   template <class Real>
   void evaluate_needed_walls(const StepView& view, std::size_t begin, std::size_t end);
   template <class Real>

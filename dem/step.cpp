@@ -7,18 +7,6 @@
 #include "dem/step_loops.h"
 
 namespace interstice::dem {
-namespace {
-
-/// Groups of pairs between requests for rows ahead: many at once would wait for each other.
-constexpr std::size_t kGroupsAtOnce = 4;
-/// Has memory brought near that is needed soon; returns where the next request goes on.
-const char* ask_for(const char* line, const char* end) {
-  for (; line < end; line += 64) __builtin_prefetch(line, 1, 2);
-  return line;
-}
-
-}  // namespace
-
 /// Begins the step of a group of grains.
 template <class Real>
 inline void Simulation::begin_group(PairRow<Real>* rows, std::size_t group, const GroupState& now,
@@ -89,11 +77,6 @@ bool Simulation::spares(std::size_t begin, std::size_t end) const {
   return !watch_all_ && sleepers_.idle(begin, end, looks_);
 }
 
-bool Simulation::spares_pairs(std::size_t begin, std::size_t end) const {
-  while (begin < end && !is_needed(begin)) ++begin;
-  return begin == end;
-}
-
 template <bool kSleep, class Real>
 void Simulation::evaluate_and_move(PairRow<Real>* rows, bool begin_next) {
   if (kSleep && !watch_all_ && sleepers_.all_idle()) return take_report({});
@@ -101,14 +84,18 @@ void Simulation::evaluate_and_move(PairRow<Real>* rows, bool begin_next) {
   const Sweep& sweep = pair_contacts_.sweep();
   std::vector<PassReport> reports(sweep.parts.blocks());
   for_blocks({sweep.shared_groups, kGroupsPerTask}, [&](std::size_t, std::size_t begin, std::size_t end) {
-    if constexpr (kSleep) return evaluate_needed<Real>(shared, begin, end);
-    kernels_.pairs(model_.laws, shared, begin, end);
+    if constexpr (kSleep) return evaluate_needed<Real>(shared, begin, end, {});
+    kernels_.pairs(model_.laws, shared, begin, end, {});
   });
   if (options_.energies) count_inserted_contacts();
 
   for_parts([&](std::size_t b, std::size_t group, bool last) {
-    evaluate_pairs<kSleep, Real>(view, group, sweep.done_before[b], rows + sweep.front[b],
-                                 rows + sweep.front[last ? b : b + 1]);
+    const MemoryAhead ahead = rows_ahead(rows, b, last);
+    if constexpr (kSleep) {
+      evaluate_needed<Real>(view, group, sweep.done_before[b], ahead);
+    } else {
+      kernels_.pairs(model_.laws, view, group, sweep.done_before[b], ahead);
+    }
     const std::size_t begin = sweep.parts.begin_row(b), end = sweep.parts.end_row(b);
     if (kSleep && spares(begin, end)) return;
     pair_contacts_.fetch_shared(b);
@@ -121,27 +108,6 @@ void Simulation::evaluate_and_move(PairRow<Real>* rows, bool begin_next) {
     reports[b] = move_rows<kSleep>(rows, view, begin, end, begin_next);
   });
   if (begin_next) take_report(reports);
-}
-
-/// Evaluates groups of pairs and asks meanwhile for the rows [ahead, ahead_end), which later pairs are the
-/// first to touch: they follow each other in memory, but are not touched in that order.
-template <bool kSleep, class Real>
-void Simulation::evaluate_pairs(const StepView& view, std::size_t begin, std::size_t end,
-                                const PairRow<Real>* ahead, const PairRow<Real>* ahead_end) {
-  const auto* line = reinterpret_cast<const char*>(ahead);
-  const auto* const last = reinterpret_cast<const char*>(ahead_end);
-  for (std::size_t group = begin; group < end; group += kGroupsAtOnce) {
-    const std::size_t until = std::min(end, group + kGroupsAtOnce);
-    if (kSleep && spares_pairs(group, until)) continue;
-    const auto* const share = line + (last - line) * static_cast<std::ptrdiff_t>(until - group) /
-                                         static_cast<std::ptrdiff_t>(end - group);
-    line = ask_for(line, share);
-    if constexpr (kSleep) {
-      evaluate_needed<Real>(view, group, until);
-    } else {
-      kernels_.pairs(model_.laws, view, group, until);
-    }
-  }
 }
 
 /// Collects the forces of some grains, completes their velocities, and begins the next step.
@@ -159,8 +125,7 @@ INTERSTICE_FLATTEN Simulation::PassReport Simulation::move_rows(PairRow<Real>* r
                      torque = simd::converted<double>(sums.torque);
     if (options_.energies) add_heat(g);
     GroupMotion& m = grains_.motions()[g];
-    const auto* const next = reinterpret_cast<const char*>(&m + 1);
-    ask_for(next, next + sizeof(GroupMotion));
+    ask_for_motion(&m + 1);
     GroupState now;
     now.acceleration = multiply_add(Each::load(m.inverse_mass), force, gravity);
     now.angular = Each::load(m.inverse_inertia) * torque;

@@ -49,6 +49,22 @@ void Simulation::for_parts(const Work& work) const {
   }
 }
 
+/// Rows that the pairs of the block after `block` are the first to touch: they follow each other in memory,
+/// but are not touched in that order.
+template <class Real>
+MemoryAhead Simulation::rows_ahead(const PairRow<Real>* rows, std::size_t block, bool last) const {
+  const std::vector<std::size_t>& front = pair_contacts_.sweep().front;
+  const auto at = [&](std::size_t row) { return reinterpret_cast<const char*>(rows + row); };
+  return {at(front[block]), at(front[last ? block : block + 1])};
+}
+
+/// Has the motion of a group of grains brought near.
+inline void ask_for_motion(const GroupMotion* m) {
+  constexpr std::size_t line = 64;
+  const auto* const first = reinterpret_cast<const char*>(m);
+  for (const char* p = first; p < first + sizeof(GroupMotion); p += line) __builtin_prefetch(p, 1, 2);
+}
+
 /// A grain outside the domain: put back through a periodic face; true when it left through an open one.
 template <class Real>
 bool Simulation::wrap_or_leave(PairRow<Real>& row, GrainLabel& label) const {

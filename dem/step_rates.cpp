@@ -110,12 +110,12 @@ void Simulation::evaluate_and_move_rated(PairRow<Real>* rows, bool begin_next) {
   std::vector<PassReport> reports(sweep.parts.blocks());
   for_blocks({sweep.shared_groups, kGroupsPerTask}, [&](std::size_t, std::size_t begin, std::size_t end) {
     const std::size_t border = std::clamp(sweep.shared_quick, begin, end);
-    kernels_.pairs(model_.laws, shared, begin, border);
-    kernels_.pairs(model_.laws, shared_quick, border, end);
+    kernels_.pairs(model_.laws, shared, begin, border, {});
+    kernels_.pairs(model_.laws, shared_quick, border, end, {});
   });
-  for_parts([&](std::size_t b, std::size_t group, bool) {
-    kernels_.pairs(model_.laws, view, group, sweep.quick[b]);
-    kernels_.pairs(model_.laws, quick, sweep.quick[b], sweep.done_before[b]);
+  for_parts([&](std::size_t b, std::size_t group, bool last) {
+    kernels_.pairs(model_.laws, view, group, sweep.quick[b], rows_ahead(rows, b, last));
+    kernels_.pairs(model_.laws, quick, sweep.quick[b], sweep.done_before[b], {});
     pair_contacts_.fetch_shared(b);
     kernels_.walls(model_.laws, view, wall_contacts_.first_group(b), wall_contacts_.first_quick(b));
     kernels_.walls(model_.laws, quick, wall_contacts_.first_quick(b), wall_contacts_.first_group(b + 1));
@@ -254,10 +254,10 @@ void Simulation::work_on_beat(PairRow<Real>* rows, bool last) {
   std::vector<PassReport> reports(sweep.parts.blocks());
   for_blocks({sweep.shared_groups - sweep.shared_quick, kGroupsPerTask},
              [&](std::size_t, std::size_t begin, std::size_t end) {
-               kernels_.pairs(model_.laws, shared, sweep.shared_quick + begin, sweep.shared_quick + end);
+               kernels_.pairs(model_.laws, shared, sweep.shared_quick + begin, sweep.shared_quick + end, {});
              });
   for_parts([&](std::size_t b, std::size_t, bool) {
-    kernels_.pairs(model_.laws, view, sweep.quick[b], sweep.done_before[b]);
+    kernels_.pairs(model_.laws, view, sweep.quick[b], sweep.done_before[b], {});
     pair_contacts_.fetch_shared(b);
     kernels_.walls(model_.laws, view, wall_contacts_.first_quick(b), wall_contacts_.first_group(b + 1));
     for (std::size_t g = sweep.parts.begin_row(b) / kLanes; g < groups_for(sweep.parts.end_row(b)); ++g)

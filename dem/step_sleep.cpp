@@ -118,12 +118,13 @@ void Simulation::fall_asleep() {
 template <class Real>
 void Simulation::evaluate_frozen(const StepView& view, std::size_t group) {
   const KeptSprings<Real> springs(view.pairs.sliding, view.pairs.rolling, group);
-  kernels_.pairs(model_.laws, view, group, group + 1);
+  kernels_.pairs(model_.laws, view, group, group + 1, {});
   springs.put_back(sleepers_.frozen(group) & view.pairs.bits[group].touching);
 }
 
 template <class Real>
-void Simulation::evaluate_needed(const StepView& view, std::size_t begin, std::size_t end) {
+void Simulation::evaluate_needed(const StepView& view, std::size_t begin, std::size_t end,
+                                 const MemoryAhead& ahead) {
   constexpr std::size_t most = 64;  // groups at once
   for (std::size_t group = begin; group < end;) {
     if (!is_needed(group)) {
@@ -133,7 +134,7 @@ void Simulation::evaluate_needed(const StepView& view, std::size_t begin, std::s
     } else {
       const std::size_t first = group++;
       while (group < std::min(end, first + most) && is_needed(group) && sleepers_.frozen(group) == 0) ++group;
-      kernels_.pairs(model_.laws, view, first, group);
+      kernels_.pairs(model_.laws, view, first, group, ahead.share(first - begin, group - begin, end - begin));
     }
   }
 }
@@ -238,8 +239,10 @@ void Simulation::judge_rest(const PairRow<Real>* rows, std::size_t group, const 
   if (RestRule::is_check(step_)) count_rest(rows, group, now);
 }
 
-template void Simulation::evaluate_needed<float>(const StepView&, std::size_t, std::size_t);
-template void Simulation::evaluate_needed<double>(const StepView&, std::size_t, std::size_t);
+template void Simulation::evaluate_needed<float>(const StepView&, std::size_t, std::size_t,
+                                                 const MemoryAhead&);
+template void Simulation::evaluate_needed<double>(const StepView&, std::size_t, std::size_t,
+                                                  const MemoryAhead&);
 template void Simulation::evaluate_needed_walls<float>(const StepView&, std::size_t, std::size_t);
 template void Simulation::evaluate_needed_walls<double>(const StepView&, std::size_t, std::size_t);
 template void Simulation::judge_rest(const PairRow<float>*, std::size_t, const Vec3<Each>&, GroupState&);

@@ -10,11 +10,12 @@
 namespace interstice::dem {
 
 template <class L, class Real>
-void pairs_entry(const Laws& chosen, const StepView& v, std::size_t begin, std::size_t end) {
+void pairs_entry(const Laws& chosen, const StepView& v, std::size_t begin, std::size_t end,
+                 MemoryAhead ahead) {
   if constexpr (std::is_same_v<L, Laws>) {
-    evaluate_groups<Laws, Real>(chosen, v, begin, end);
+    evaluate_groups<Laws, Real>(chosen, v, begin, end, ahead);
   } else {
-    evaluate_groups<L, Real>(L{}, v, begin, end);
+    evaluate_groups<L, Real>(L{}, v, begin, end, ahead);
   }
 }
 

@@ -31,9 +31,23 @@ struct StepView {
   const Wall* wall_models;
 };
 
+/// Memory to bring near while groups of pairs are evaluated, because later ones touch it.
+struct MemoryAhead {
+  const char* begin = nullptr;
+  const char* end = nullptr;
+
+  /// What the groups [first, last) of `all` ask for.
+  MemoryAhead share(std::size_t first, std::size_t last, std::size_t all) const {
+    const auto at = [&](std::size_t group) {
+      return begin + static_cast<std::size_t>(end - begin) * group / all;
+    };
+    return {at(first), at(last)};
+  }
+};
+
 struct ForceKernels {
   /// Evaluates the groups of pairs [begin, end).
-  void (*pairs)(const Laws&, const StepView&, std::size_t begin, std::size_t end);
+  void (*pairs)(const Laws&, const StepView&, std::size_t begin, std::size_t end, MemoryAhead ahead);
   /// Evaluates the groups of contacts with walls [begin, end).
   void (*walls)(const Laws&, const StepView&, std::size_t begin, std::size_t end);
   bool generic;  // laws chosen at run time

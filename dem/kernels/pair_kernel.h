@@ -120,10 +120,32 @@ void evaluate_group(const L& laws, const StepView& v, const CommonInputs<P>& com
   bits.attracting = static_cast<std::uint16_t>(s.attracting);
 }
 
+/// Asks for memory a piece at a time: much at once would wait for each other.
+class LittleByLittle {
+ public:
+  LittleByLittle(const MemoryAhead& ahead, std::size_t pieces)
+      : line_(ahead.begin),
+        end_(ahead.end),
+        piece_((static_cast<std::size_t>(end_ - line_) + pieces * kLine - 1) / (pieces * kLine) * kLine) {}
+  void ask() {
+    const char* const until = line_ + std::min(piece_, static_cast<std::size_t>(end_ - line_));
+    for (; line_ < until; line_ += kLine) __builtin_prefetch(line_, 1, 2);
+    line_ = until;
+  }
+
+ private:
+  static constexpr std::size_t kLine = 64;
+  const char* line_;
+  const char* end_;
+  std::size_t piece_;
+};
+
 template <bool one_material, class L, class P>
 void evaluate_range(const L& laws, const StepView& v, const CommonInputs<P>& common, std::size_t begin,
-                    std::size_t end) {
+                    std::size_t end, const MemoryAhead& ahead) {
+  LittleByLittle asked(ahead, end - begin);
   for (std::size_t group = begin; group < end; ++group) {
+    asked.ask();
     const PairRows<P> rows = load_pair_rows<P>(v, common.periods, v.pairs.pairs + group * kLanes);
     if (stay_apart(laws, v.pairs.bits[group], rows.sites.excess)) {
       leave_apart<P>(v, group);
@@ -136,7 +158,8 @@ void evaluate_range(const L& laws, const StepView& v, const CommonInputs<P>& com
 /// Evaluates the groups [begin, end).
 template <class L, class Real>
 INTERSTICE_FLATTEN void evaluate_groups(const L& laws, const StepView& view, std::size_t begin,
-                                        std::size_t end) {
+                                        std::size_t end, const MemoryAhead& ahead) {
+  if (begin == end) return;
   using P = simd::Pack<Real, kLanes>;
   const simd::FlushTinyNumbers flush;
   const StepView v = view;  // of which the compiler knows that nothing stored changes it
@@ -144,9 +167,9 @@ INTERSTICE_FLATTEN void evaluate_groups(const L& laws, const StepView& view, std
   if (v.only_material >= 0) {
     const auto m = static_cast<std::size_t>(v.only_material);
     common.constants = constants_of<Real>(v, m, m).template as<P>();
-    evaluate_range<true>(laws, v, common, begin, end);
+    evaluate_range<true>(laws, v, common, begin, end, ahead);
   } else {
-    evaluate_range<false>(laws, v, common, begin, end);
+    evaluate_range<false>(laws, v, common, begin, end, ahead);
   }
 }
 

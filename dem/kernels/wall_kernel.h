@@ -150,6 +150,7 @@ void evaluate_wall_group(const L& laws, const StepView& v, std::size_t group) {
 template <class L, class Real>
 INTERSTICE_FLATTEN void evaluate_walls(const L& laws, const StepView& view, std::size_t begin,
                                        std::size_t end) {
+  if (begin == end) return;
   const simd::FlushTinyNumbers flush;
   const StepView v = view;  // of which the compiler knows that nothing stored changes it
   for (std::size_t group = begin; group < end; ++group) evaluate_wall_group<L, Real>(laws, v, group);
