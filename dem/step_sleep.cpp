@@ -13,8 +13,6 @@ namespace {
 /// Lists are made anew when of so many grains one fell asleep or woke.
 constexpr std::size_t kTurnedOfAll = 8;
 
-constexpr std::uint32_t kAllLanes = (1u << kLanes) - 1;
-
 /// The springs of a group as they were.
 template <class Real>
 class KeptSprings {

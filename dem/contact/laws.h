@@ -29,6 +29,12 @@ struct FixedLaws {
   static constexpr CohesionLaw cohesion = L.cohesion;
 };
 
+/// Do all forces of a contact vanish with its overlap?
+constexpr bool fades_out(const auto& laws) {
+  return laws.normal == NormalLaw::hertz &&
+         (laws.cohesion == CohesionLaw::none || laws.cohesion == CohesionLaw::sjkr);
+}
+
 /// Does the tangential spring (or the rolling spring) need a memory?
 constexpr bool keeps_spring(const Laws& laws) { return laws.tangential == TangentialLaw::mindlin; }
 constexpr bool keeps_rolling_spring(const Laws& laws) { return laws.rolling == RollingLaw::epsd2; }

@@ -43,24 +43,30 @@ INTERSTICE_HD inline Vec3<T> multiply_add(const T& a, const Vec3<T>& b, const Ve
   return {multiply_add(a, b.x, c.x), multiply_add(a, b.y, c.y), multiply_add(a, b.z, c.z)};
 }
 
-/// Added to the squares of lengths, so that none is zero, and by how much lengths are scaled before: in
-/// single precision the square of a force on a grain of 100 nm, or of a torque on one of 1 um, underflows.
+/// Added to the squares of lengths, so that none is zero, and by how much lengths of forces and torques are
+/// scaled before: in single precision the square of a force on a grain of 100 nm, or of a torque on one of
+/// 1 um, underflows.
 template <class Real>
 inline constexpr Real kLeastSquare = sizeof(Real) == 4 ? Real(1e-37) : Real(1e-300);
 template <class Real>
 inline constexpr Real kLengthScale = sizeof(Real) == 4 ? Real(4294967296.0) : Real(1);
 
-/// 1/|v| of a force [N], a torque [N m] or a spin [rad/s] below 4e9; large but finite where v is zero.
+/// 1/|v| of a spin [rad/s] below 1e18, by magnitude above 1e-18; large but finite where v is zero.
+template <class T, class Real = T>
+INTERSTICE_HD inline T inverse_spin(const Vec3<T>& v) {
+  return inverse_root_of(
+      multiply_add(v.z, v.z, multiply_add(v.y, v.y, multiply_add(v.x, v.x, T(kLeastSquare<Real>)))));
+}
+/// 1/|v| of a force [N] or a torque [N m] below 4e9; large but finite where v is zero.
 template <class T, class Real = T>
 INTERSTICE_HD inline T inverse_length(const Vec3<T>& v) {
   const T scale(kLengthScale<Real>);
-  const Vec3<T> s = scale * v;
-  const T square =
-      multiply_add(s.z, s.z, multiply_add(s.y, s.y, multiply_add(s.x, s.x, T(kLeastSquare<Real>))));
-  return scale * inverse_root_of(square);
+  return scale * inverse_spin<T, Real>(scale * v);
 }
 INTERSTICE_HD inline double inverse_length_of(const Vec3<double>& v) { return inverse_length(v); }
 INTERSTICE_HD inline float inverse_length_of(const Vec3<float>& v) { return inverse_length(v); }
+INTERSTICE_HD inline double inverse_spin_of(const Vec3<double>& v) { return inverse_spin(v); }
+INTERSTICE_HD inline float inverse_spin_of(const Vec3<float>& v) { return inverse_spin(v); }
 
 template <class T>
 INTERSTICE_HD inline T square(const T& a) {

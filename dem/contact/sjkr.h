@@ -8,11 +8,13 @@
 namespace interstice::dem {
 
 /// Area of the circle in which two spheres of radii a, b at centre distance d intersect [m^2];
-/// overlap = a + b - d. None where one sphere lies wholly inside the other (a bad start, a heavy press).
+/// inverse_d = 1/d, overlap = a + b - d: pi/4 overlap (d + a + b) (1 - ((a - b)/d)^2). None where one sphere
+/// lies wholly inside the other (a bad start, a heavy press).
 template <class T>
-INTERSTICE_HD inline T sphere_sphere_area(const T& a, const T& b, const T& d, const T& overlap) {
-  return max_of(T(0.25 * M_PI) * overlap * (d + a - b) * (d - a + b) * (d + a + b) * square(inverse_of(d)),
-                T(0));
+INTERSTICE_HD inline T sphere_sphere_area(const T& a, const T& b, const T& d, const T& inverse_d,
+                                          const T& overlap) {
+  const T lean = (a - b) * inverse_d;
+  return max_of((T(0.25 * M_PI) * overlap) * (d + (a + b)) * multiply_add(-lean, lean, T(1)), T(0));
 }
 
 /// Area in which a sphere of radius r intersects a plane at distance d = r - overlap from its centre [m^2].

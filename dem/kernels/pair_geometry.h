@@ -17,14 +17,16 @@ using RealOf = typename ScalarOf<P>::type;
 /// A double a pair.
 using Doubles = simd::Pack<double, kLanes>;
 
-/// Lengths of the domain's periodic axes and their inverses; 0 along the others [m, 1/m].
+/// Lengths of the domain's periodic axes and their inverses [m, 1/m].
 struct Periods {
+  bool wraps[3];
   Vec3<Doubles> length, inverse;
 
   explicit Periods(const Vec3d& period) {
     for (int axis = 0; axis < 3; ++axis) {
+      wraps[axis] = period[axis] > 0;
       length[axis] = Doubles(period[axis]);
-      inverse[axis] = Doubles(period[axis] > 0 ? 1 / period[axis] : 0);
+      inverse[axis] = Doubles(wraps[axis] ? 1 / period[axis] : 0);
     }
   }
 };
@@ -33,8 +35,7 @@ struct Periods {
 template <class P>
 struct PairSites {
   Vec3<P> apart;  // from b to a [m]
-  P squared;      // its square, s^2 less that, and s, the sum of the radii
-  P excess, reach;
+  P excess;       // s^2 - d^2, of the sum of the radii and the distance [m^2]
 };
 
 /// From positions a - b and the sum of the radii in double: s^2 - d^2 keeps its digits where s - d would lose
@@ -42,15 +43,18 @@ struct PairSites {
 template <class P>
 PairSites<P> pair_sites(Vec3<Doubles> apart, const Doubles& reach, const Periods& periods) {
   using Real = RealOf<P>;
-  for (int axis = 0; axis < 3; ++axis)
+  for (int axis = 0; axis < 3; ++axis) {
+    if (!periods.wraps[axis]) continue;
     apart[axis] =
         multiply_add(-rounded(apart[axis] * periods.inverse[axis]), periods.length[axis], apart[axis]);
-  const Doubles d2 = dot(apart, apart);
-  const auto coincide = !(d2 > Doubles(0));  // a fixed direction
-  apart.x = select(coincide, Doubles(1e-6) * reach, apart.x);
-  const Doubles squared = select(coincide, square(apart.x), d2);
-  return {simd::converted<Real>(apart), simd::converted<Real>(squared),
-          simd::converted<Real>(multiply_add(reach, reach, -squared)), simd::converted<Real>(reach)};
+  }
+  Doubles squared = dot(apart, apart);
+  const auto distinct = squared > Doubles(0);
+  if (distinct.bits() != kAllLanes) [[unlikely]] {  // a fixed direction
+    apart.x = select(distinct, apart.x, Doubles(1e-6) * reach);
+    squared = select(distinct, squared, square(apart.x));
+  }
+  return {simd::converted<Real>(apart), simd::converted<Real>(multiply_add(reach, reach, -squared))};
 }
 
 /// How the grains of a group of pairs stand to each other.
@@ -58,18 +62,20 @@ template <class P>
 struct PairGeometry {
   Vec3<P> normal;       // from b to a
   P distance, overlap;  // [m]
+  P inverse_distance;   // [1/m]
   P inverse_reach;      // of the sum of the radii [1/m]
 };
 
 template <class P>
-PairGeometry<P> pair_geometry(const PairSites<P>& sites) {
+PairGeometry<P> pair_geometry(const PairSites<P>& sites, const P& reach) {
   PairGeometry<P> g;
-  const P inverse_distance = inverse_root_of(sites.squared);
-  g.distance = sites.squared * inverse_distance;
-  const P sum = sites.reach + g.distance, inverse = inverse_of(sites.reach * sum);  // one division for two
+  const P squared = dot(sites.apart, sites.apart);
+  g.inverse_distance = inverse_root_of(squared);
+  g.distance = squared * g.inverse_distance;
+  const P sum = reach + g.distance, inverse = inverse_of(reach * sum);  // one division for two
   g.inverse_reach = sum * inverse;
-  g.overlap = sites.excess * (sites.reach * inverse);
-  g.normal = inverse_distance * sites.apart;
+  g.overlap = sites.excess * (reach * inverse);
+  g.normal = g.inverse_distance * sites.apart;
   return g;
 }
 

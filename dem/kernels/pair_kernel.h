@@ -37,7 +37,7 @@ ContactKinematics<P> pair_kinematics(const L& laws, const PairGeometry<P>& g, co
   kin.effective_mass = inverse_of(a.inverse_mass + b.inverse_mass);
   kin.normal = g.normal;
   if (laws.cohesion == CohesionLaw::sjkr) {
-    kin.area = sphere_sphere_area(a.radius, b.radius, g.distance, kin.overlap);
+    kin.area = sphere_sphere_area(a.radius, b.radius, g.distance, g.inverse_distance, kin.overlap);
   }
   arm_a = a.radius - P(0.5) * kin.overlap;
   arm_b = b.radius - P(0.5) * kin.overlap;
@@ -78,7 +78,7 @@ void evaluate_group(const L& laws, const StepView& v, const CommonInputs<P>& com
   const std::size_t first = group * kLanes;
   GroupBits& bits = v.pairs.bits[group];
   const PairRef* pairs = v.pairs.pairs + first;
-  const PairGeometry<P> g = pair_geometry(rows.sites);
+  const PairGeometry<P> g = pair_geometry(rows.sites, rows.a.radius + rows.b.radius);
   const PairConstants<P> c =
       one_material ? common.constants : load_constants<P>([&](int lane) -> const PairConstants<Real>& {
         return constants_of<Real>(v, v.materials[pairs[lane].a], v.materials[pairs[lane].b]);
@@ -106,10 +106,14 @@ void evaluate_group(const L& laws, const StepView& v, const CommonInputs<P>& com
   Vec3<P> torque_a = none, torque_b = none;
   if (laws.tangential != TangentialLaw::none || laws.rolling != RollingLaw::none) {
     const Vec3<P> turning = cross(g.normal, f.tangential);
-    torque_a = select(touching, multiply_add(-arm_a, turning, f.rolling_torque), none);
-    torque_b = select(touching, multiply_add(-arm_b, turning, -f.rolling_torque), none);
+    torque_a = multiply_add(-arm_a, turning, f.rolling_torque);
+    torque_b = multiply_add(-arm_b, turning, -f.rolling_torque);
   }
-  const Vec3<P> force = select(touching, f.force, across);
+  Vec3<P> force = f.force;
+  if (!fades_out(laws)) {
+    force = select(touching, force, across);
+    torque_a = select(touching, torque_a, none), torque_b = select(touching, torque_b, none);
+  }
   store_ends(v.pairs.ends + first, force, torque_a, torque_b, v.pairs.end_forces);
   if (v.pairs.forces) store_columns(force, static_cast<Real*>(v.pairs.forces) + axis_index(first, 0));
   if constexpr (kCountsHeat<L>) {

@@ -366,6 +366,10 @@ template <class T, int N>
 Pack<T, N> inverse_length_of(const Vec3<Pack<T, N>>& v) {
   return inverse_length<Pack<T, N>, T>(v);
 }
+template <class T, int N>
+Pack<T, N> inverse_spin_of(const Vec3<Pack<T, N>>& v) {
+  return inverse_spin<Pack<T, N>, T>(v);
+}
 
 namespace detail {
 template <int first, class V, int... I>

@@ -50,7 +50,7 @@ TEST(Potential, OfTheIntersectionOfSpheresAndPlanes) {
     const double a = 1e-5;
     hold_slope(
         "sjkr, radii 10 and " + std::to_string(b * 1e6).substr(0, 3) + " um",
-        [&](double d) { return sjkr_attraction(k, sphere_sphere_area(a, b, a + b - d, d)); },
+        [&](double d) { return sjkr_attraction(k, sphere_sphere_area(a, b, a + b - d, 1 / (a + b - d), d)); },
         [&](double d) { return k * sphere_sphere_area_integral(a, b, a + b - d, d); }, {1e-9, 3e-8, 2e-6});
   }
   hold_slope(
