@@ -71,25 +71,27 @@ void leave_apart(const StepView& v, std::size_t group) {
 }
 
 template <bool one_material, class L, class P>
-void evaluate_group(const L& laws, const StepView& v, const CommonInputs<P>& common, const PairRows<P>& rows,
-                    std::size_t group) {
+void evaluate_group(const L& laws, const StepView& v, const CommonInputs<P>& common,
+                    const PairSites<P>& sites, std::size_t group) {
   using Real = RealOf<P>;
   using M = typename P::M;
   const std::size_t first = group * kLanes;
   GroupBits& bits = v.pairs.bits[group];
   const PairRef* pairs = v.pairs.pairs + first;
-  const PairGeometry<P> g = pair_geometry(rows.sites, rows.a.radius + rows.b.radius);
+  const PairRows<P> rows = load_pair_rows<P>(v, pairs);
+  const GrainRows<P>&a = rows.a, &b = rows.b;
+  const PairGeometry<P> g = pair_geometry(sites, a.radius + b.radius);
   const PairConstants<P> c =
       one_material ? common.constants : load_constants<P>([&](int lane) -> const PairConstants<Real>& {
         return constants_of<Real>(v, v.materials[pairs[lane].a], v.materials[pairs[lane].b]);
       });
-  const P effective_radius = rows.a.radius * rows.b.radius * g.inverse_reach;
+  const P effective_radius = a.radius * b.radius * g.inverse_reach;
   P attraction(0);
   const ContactStates s = contact_states(laws, bits, g.overlap, c, effective_radius, attraction);
   const M touching = M::from_bits(s.touching);
 
   P arm_a, arm_b;
-  const ContactKinematics<P> kin = pair_kinematics(laws, g, rows.a, rows.b, effective_radius, arm_a, arm_b);
+  const ContactKinematics<P> kin = pair_kinematics(laws, g, a, b, effective_radius, arm_a, arm_b);
   const auto spring = [&](void* springs) { return static_cast<Real*>(springs) + spring_index(first, 0); };
   ContactMemory<P> memory{};
   if (laws.tangential == TangentialLaw::mindlin) memory.sliding = load_spring<P>(spring(v.pairs.sliding));
@@ -150,11 +152,11 @@ void evaluate_range(const L& laws, const StepView& v, const CommonInputs<P>& com
   LittleByLittle asked(ahead, end - begin);
   for (std::size_t group = begin; group < end; ++group) {
     asked.ask();
-    const PairRows<P> rows = load_pair_rows<P>(v, common.periods, v.pairs.pairs + group * kLanes);
-    if (stay_apart(laws, v.pairs.bits[group], rows.sites.excess)) {
+    const PairSites<P> sites = load_pair_sites<P>(v, common.periods, v.pairs.pairs + group * kLanes);
+    if (stay_apart(laws, v.pairs.bits[group], sites.excess)) {
       leave_apart<P>(v, group);
     } else {
-      evaluate_group<one_material>(laws, v, common, rows, group);
+      evaluate_group<one_material>(laws, v, common, sites, group);
     }
   }
 }

@@ -27,30 +27,39 @@ GrainRows<P> grain_rows(const RowLoader<P>& loader) {
   return {{c[0], c[1], c[2]}, c[3], {c[4], c[5], c[6]}, c[7]};
 }
 
-/// What the laws read of a group of pairs.
+/// What the laws read of a group of pairs, in two parts: the places are needed of all groups, the rest where
+/// grains touch. Each part finds the rows by itself: to keep their addresses costs more.
 template <class P>
-struct PairRows {
-  PairSites<P> sites;
-  GrainRows<P> a, b;
-};
-
-template <class P>
-PairRows<P> load_pair_rows(const StepView& v, const Periods& periods, const PairRef* pairs) {
+PairSites<P> load_pair_sites(const StepView& v, const Periods& periods, const PairRef* pairs) {
   using Row = PairRow<RealOf<P>>;
   const simd::RowOffsets<2 * kLanes> offsets(pairs, sizeof(Row) / sizeof(double));
   simd::QuadLoader<kLanes> apart;
-  RowLoader<P> of_a, of_b;
   simd::unrolled<kLanes>([&](auto lane) {
     constexpr int i = decltype(lane)::value;
     const Row &a = *offsets.template at<Row>(2 * i, v.rows),
               &b = *offsets.template at<Row>(2 * i + 1, v.rows);
     apart.template load_difference<i>(&a.x, &b.x);
-    of_a.template load<i>(&a.vx);
-    of_b.template load<i>(&b.vx);
   });
   const auto c = apart.columns();
-  return {pair_sites<P>(Vec3<Doubles>{c[0], c[1], c[2]}, c[3], periods), grain_rows<P>(of_a),
-          grain_rows<P>(of_b)};
+  return pair_sites<P>(Vec3<Doubles>{c[0], c[1], c[2]}, c[3], periods);
+}
+
+template <class P>
+struct PairRows {
+  GrainRows<P> a, b;
+};
+
+template <class P>
+PairRows<P> load_pair_rows(const StepView& v, const PairRef* pairs) {
+  using Row = PairRow<RealOf<P>>;
+  const simd::RowOffsets<2 * kLanes> offsets(pairs, sizeof(Row) / sizeof(double));
+  RowLoader<P> of_a, of_b;
+  simd::unrolled<kLanes>([&](auto lane) {
+    constexpr int i = decltype(lane)::value;
+    of_a.template load<i>(&offsets.template at<Row>(2 * i, v.rows)->vx);
+    of_b.template load<i>(&offsets.template at<Row>(2 * i + 1, v.rows)->vx);
+  });
+  return {grain_rows<P>(of_a), grain_rows<P>(of_b)};
 }
 
 /// The constants that constants_at(0), constants_at(1), ... name.
