@@ -24,8 +24,9 @@ class PairKeys {
     for (std::size_t p = 0; p < parts.count(); ++p)
       for (std::size_t b = parts.first_block[p]; b < parts.first_block[p + 1]; ++b)
         part_of_block[b] = static_cast<std::uint16_t>(p);
-    // Pairs of rows far from each other, as across a periodic face, would keep everything between in use.
-    const std::size_t farthest = std::max<std::size_t>(4096, parts.rows / 16);
+    // Pairs of rows far from each other, as across a periodic face or from column to column (site_order.h),
+    // would keep everything between in use.
+    constexpr std::size_t farthest = 4096;
     for (std::size_t k = 0; k < pairs.size(); ++k) {
       const auto [first, last] = std::minmax(pairs[k].a, pairs[k].b);
       const bool shared = all_shared || last - first > farthest ||
