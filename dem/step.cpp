@@ -85,7 +85,7 @@ void Simulation::evaluate_and_move(PairRow<Real>* rows, bool begin_next) {
   std::vector<PassReport> reports(sweep.parts.blocks());
   for_blocks({sweep.shared_groups, kGroupsPerTask}, [&](std::size_t, std::size_t begin, std::size_t end) {
     if constexpr (kSleep) return evaluate_needed<Real>(shared, begin, end, {});
-    kernels_.pairs(model_.laws, shared, begin, end, {});
+    evaluate_scattered<Real>(shared, begin, end);
   });
   if (options_.energies) count_inserted_contacts();
 
@@ -108,6 +108,24 @@ void Simulation::evaluate_and_move(PairRow<Real>* rows, bool begin_next) {
     reports[b] = move_rows<kSleep>(rows, view, begin, end, begin_next);
   });
   if (begin_next) take_report(reports);
+}
+
+/// Evaluates groups of pairs whose rows lie anywhere, asking for those of the next groups meanwhile.
+template <class Real>
+void Simulation::evaluate_scattered(const StepView& view, std::size_t begin, std::size_t end) {
+  constexpr std::size_t at_once = 4;
+  const auto* const rows = static_cast<const PairRow<Real>*>(view.rows);
+  const auto ask_for = [&](const PairRow<Real>& row) {
+    for (std::size_t line = 0; line < sizeof(row); line += 64)
+      __builtin_prefetch(reinterpret_cast<const char*>(&row) + line, 0, 2);
+  };
+  for (std::size_t group = begin; group < end; group += at_once) {
+    const std::size_t until = std::min(end, group + at_once);
+    const PairRef* const next = view.pairs.pairs + until * kLanes;
+    const PairRef* const next_end = view.pairs.pairs + std::min(end, until + at_once) * kLanes;
+    for (const PairRef* p = next; p < next_end; ++p) ask_for(rows[p->a]), ask_for(rows[p->b]);
+    kernels_.pairs(model_.laws, view, group, until, {});
+  }
 }
 
 /// Collects the forces of some grains, completes their velocities, and begins the next step.
