@@ -7,15 +7,22 @@
 namespace interstice::dem {
 namespace {
 
-/// A rank is collected by lanes where at least so many grains of the group have an end of it: it costs as
-/// much as some ends collected one by one.
-constexpr std::size_t kWorthARank = 2;
+/// What it costs to collect ends that are not in a rank, in ranks: at all, and each.
+constexpr double kRestCost = 6, kRestEndCost = 0.6;
 
+/// How many ranks are collected with the least work. The ends beyond are those of few grains with many.
 std::uint32_t ranks_of(const std::uint32_t* count) {
   std::array<std::uint32_t, kLanes> most_first;
   std::copy_n(count, kLanes, most_first.begin());
   std::sort(most_first.begin(), most_first.end(), std::greater<>());
-  return most_first[kWorthARank - 1];
+  std::uint32_t best = most_first[0], above = 0;
+  double least = best;
+  for (std::uint32_t grains = 1; grains < kLanes; ++grains) {
+    above += grains * (most_first[grains - 1] - most_first[grains]);
+    const double cost = most_first[grains] + kRestCost + kRestEndCost * above;
+    if (cost < least) least = cost, best = most_first[grains];
+  }
+  return best;
 }
 
 struct Layout {

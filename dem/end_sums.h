@@ -12,23 +12,6 @@ struct EndSums {
   Vec3<P> force, torque;
 };
 
-/// Adds the ends beyond those collected by lanes: of each grain's `count` the first `taken`.
-template <class Real>
-void add_rest(const Real* ends, const EndRows& rows, const std::uint32_t* count, const std::uint32_t* taken,
-              EndSums<simd::Pack<Real, kLanes>>& sums) {
-  using P = simd::Pack<Real, kLanes>;
-  P* const packs[6] = {&sums.force.x,  &sums.force.y,  &sums.force.z,
-                       &sums.torque.x, &sums.torque.y, &sums.torque.z};
-  Real columns[6][kLanes];
-  for (std::size_t j = 0; j < 6; ++j) packs[j]->store(columns[j]);
-  const Real* end = ends + kEndReals * rows.rest();
-  for (std::size_t lane = 0; lane < kLanes; ++lane) {
-    for (std::uint32_t k = rows.ranks; k < count[lane]; ++k, end += kEndReals)
-      for (std::size_t j = 0; j < 6 && k < taken[lane]; ++j) columns[j][lane] += end[j < 3 ? j : j + 1];
-  }
-  for (std::size_t j = 0; j < 6; ++j) *packs[j] = P::load(columns[j]);
-}
-
 /// Sums rows of ends as they lie, as many in a register as it holds, and turns only the sums into lanes.
 template <class Real>
 class RowSums {
@@ -52,6 +35,27 @@ class RowSums {
       sums_[j] = select(own, sums_[j] + Rows::load(ends + j * kReals), sums_[j]);
     });
   }
+  /// The ends beyond those collected by ranks: of each grain's `count` the first `taken`.
+  void add_rest(const Real* end, std::uint32_t ranks, const std::uint32_t* count,
+                const std::uint32_t* taken) {
+    alignas(64) Real rows[kLanes * kEndReals];
+    simd::unrolled<kPacks>([&](auto index) {
+      constexpr int j = decltype(index)::value;
+      simd::store_in_pieces(sums_[j], rows + j * kReals);
+    });
+    for (std::uint32_t lane = 0; lane < kLanes; ++lane) {
+      if (count[lane] <= ranks) continue;
+      Real* const at = rows + kEndReals * place_of_lane(lane);
+      End sum = End::load(at);
+      for (std::uint32_t k = ranks; k < taken[lane]; ++k) sum += End::load(end + kEndReals * (k - ranks));
+      sum.store(at);
+      end += kEndReals * (count[lane] - ranks);
+    }
+    simd::unrolled<kPacks>([&](auto index) {
+      constexpr int j = decltype(index)::value;
+      sums_[j] = Rows::load(rows + j * kReals);
+    });
+  }
   EndSums<simd::Pack<Real, kLanes>> lanes() const {
     simd::OctLoader<Real, kLanes> rows;
     rows.take(sums_);
@@ -63,6 +67,7 @@ class RowSums {
   static constexpr int kReals = 64 / sizeof(Real), kEnds = kReals / static_cast<int>(kEndReals),
                        kPacks = static_cast<int>(kLanes) / kEnds;
   using Rows = simd::Pack<Real, kReals>;
+  using End = simd::Pack<Real, static_cast<int>(kEndReals)>;
   /// By number of pack j, how many ends its grain has.
   template <int j>
   Rows count_of() const {
@@ -87,9 +92,8 @@ EndSums<simd::Pack<Real, kLanes>> end_sums(const Real* ends, const EndRows& rows
   constexpr std::size_t rank = kEndReals * kLanes;
   for (std::uint32_t k = 0; k < rows.full; ++k, end += rank) sums.add(end);
   for (std::uint32_t k = rows.full; k < rows.ranks; ++k, end += rank) sums.add(end, k);
-  auto all = sums.lanes();
-  if (rows.beyond > 0) add_rest(ends, rows, count, count, all);
-  return all;
+  if (rows.beyond > 0) sums.add_rest(ends + kEndReals * rows.rest(), rows.ranks, count, count);
+  return sums.lanes();
 }
 
 /// Sums the first ends of each grain: `taken` of its `count`, nowhere more than `most`.
@@ -100,9 +104,8 @@ EndSums<simd::Pack<Real, kLanes>> end_sums(const Real* ends, const EndRows& rows
   const Real* end = ends + kEndReals * rows.first;
   const std::uint32_t ranks = std::min(rows.ranks, most);
   for (std::uint32_t k = 0; k < ranks; ++k, end += kEndReals * kLanes) sums.add(end, k);
-  auto all = sums.lanes();
-  if (most > rows.ranks) add_rest(ends, rows, count, taken, all);
-  return all;
+  if (most > rows.ranks) sums.add_rest(ends + kEndReals * rows.rest(), rows.ranks, count, taken);
+  return sums.lanes();
 }
 
 }  // namespace interstice::dem
