@@ -114,8 +114,9 @@ void PairContacts::fetch_shared(std::size_t block) {
 
 std::size_t PairContacts::bytes() const {
   return memories_.bytes() + bytes_of(pairs_) + bytes_of(ring_.rows) + bytes_of(ring_.count) +
-         bytes_of(ring_.of_pair) + bytes_of(ring_.nobodys) + bytes_of(ring_.shared) + ring_forces_.bytes() +
-         kept_forces_.bytes() + bytes_of(first_end_) + bytes_of(pair_of_end_);
+         bytes_of(ring_.rank_begin) + bytes_of(ring_.of_pair) + bytes_of(ring_.nobodys) +
+         bytes_of(ring_.shared) + ring_forces_.bytes() + kept_forces_.bytes() + bytes_of(first_end_) +
+         bytes_of(pair_of_end_);
 }
 
 std::vector<PairEnds> PairContacts::build_adjacency(const std::vector<GrainSite>& sites) {

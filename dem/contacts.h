@@ -78,10 +78,13 @@ class PairContacts {
   /// What the kernels see of pairs shared by parts, and of those inside parts.
   PairView shared_view();
   PairView view();
-  /// Where the grains of group g of slots collect.
-  const EndRows& end_rows(std::size_t g) const { return ring_.rows[g]; }
-  /// How many ends each slot has.
-  const std::uint32_t* end_counts() const { return ring_.count.data(); }
+  /// What the grains of group g of slots collect.
+  GroupEnds ends_of(std::size_t g) const {
+    return {ring_.rows[g], ring_.rank_begin.data() + ring_.rows[g].ranks, &ring_.count[g * kLanes]};
+  }
+  /// By group and where each slot stands in it: how many ends it has.
+  std::size_t stand(std::size_t slot) const { return ring_.stand(slot); }
+  std::uint32_t end_count(std::size_t slot) const { return ring_.count[ring_.stand(slot)]; }
   /// Where the further ends of the grain in `slot` lie, and one that nobody collects.
   std::uint32_t further_end(std::size_t slot, std::uint32_t rank) const {
     return ring_.place_of(static_cast<std::uint32_t>(slot), first_end_[slot + 1] - first_end_[slot] + rank);

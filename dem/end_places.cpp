@@ -2,47 +2,49 @@
 
 #include <algorithm>
 #include <array>
-#include <functional>
+#include <numeric>
 
 namespace interstice::dem {
 namespace {
 
-/// What it costs to collect ends that are not in a rank, in ranks: at all, and each.
-constexpr double kRestCost = 6, kRestEndCost = 0.6;
-
-/// How many ranks are collected with the least work. The ends beyond are those of few grains with many.
-std::uint32_t ranks_of(const std::uint32_t* count) {
-  std::array<std::uint32_t, kLanes> most_first;
-  std::copy_n(count, kLanes, most_first.begin());
-  std::sort(most_first.begin(), most_first.end(), std::greater<>());
-  std::uint32_t best = most_first[0], above = 0;
-  double least = best;
-  for (std::uint32_t grains = 1; grains < kLanes; ++grains) {
-    above += grains * (most_first[grains - 1] - most_first[grains]);
-    const double cost = most_first[grains] + kRestCost + kRestEndCost * above;
-    if (cost < least) least = cost, best = most_first[grains];
-  }
-  return best;
-}
+/// Where ranks begin: registers hold two ends in single precision.
+constexpr std::uint32_t kEndsTogether = 2;
 
 struct Layout {
-  std::vector<std::size_t> before;  // places of all groups before each, and one past the last
-  std::size_t largest = 0;          // group
+  std::vector<std::size_t> before{0};  // places of all groups before each, and one past the last
+  std::size_t largest = 0;             // group
 };
+
+/// Puts the grains of a group in the order of their ends, most first; returns how many places it takes.
+std::size_t rank_ends(EndRing& ring, std::size_t group) {
+  std::uint32_t* const count = &ring.count[group * kLanes];
+  std::array<std::uint32_t, kLanes> lanes{};
+  std::iota(lanes.begin(), lanes.end(), 0u);
+  std::stable_sort(lanes.begin(), lanes.end(),
+                   [&](std::uint32_t a, std::uint32_t b) { return count[a] > count[b]; });
+  EndRows& rows = ring.rows[group];
+  std::array<std::uint32_t, kLanes> most_first{};
+  for (std::uint32_t place = 0; place < kLanes; ++place) {
+    rows.column_of[lanes[place]] = static_cast<std::uint8_t>(column_of_place(place));
+    most_first[place] = count[lanes[place]];
+  }
+  std::copy(most_first.begin(), most_first.end(), count);
+  rows.ranks = static_cast<std::uint32_t>(ring.rank_begin.size());
+  std::uint32_t at = 0, grains = kLanes;
+  for (std::uint32_t rank = 0; rank < count[0]; ++rank) {
+    while (count[grains - 1] <= rank) --grains;
+    ring.rank_begin.push_back(at);
+    at += (grains + kEndsTogether - 1) / kEndsTogether * kEndsTogether;
+  }
+  return at;
+}
 
 Layout lay_out(EndRing& ring) {
   const std::size_t groups = ring.count.size() / kLanes;
   ring.rows.resize(groups);
   Layout layout;
-  layout.before.assign(1, 0);
   for (std::size_t g = 0; g < groups; ++g) {
-    const std::uint32_t ranks = ranks_of(&ring.count[g * kLanes]);
-    std::uint32_t beyond = 0;
-    for (std::size_t s = g * kLanes; s < (g + 1) * kLanes; ++s)
-      beyond += ring.count[s] - std::min(ring.count[s], ranks);
-    const std::uint32_t full = *std::min_element(&ring.count[g * kLanes], &ring.count[g * kLanes] + kLanes);
-    ring.rows[g] = {0, full, ranks, beyond};
-    const std::size_t places = ranks * kLanes + beyond;
+    const std::size_t places = rank_ends(ring, g);
     layout.before.push_back(layout.before.back() + places);
     layout.largest = std::max(layout.largest, places);
   }
@@ -83,8 +85,9 @@ void place_groups(EndRing& ring, const Sweep& sweep, const LargeVector<PairRef>&
     ring.places += size;
     for (std::size_t b = parts.first_block[p]; b < parts.first_block[p + 1]; ++b)
       ring.nobodys[b] = static_cast<std::uint32_t>(ring.places);
-    ++ring.places;
+    ring.places += kEndsTogether;
   }
+  ring.places += kLanes;  // a rank's last registers may be loaded, though not used, beyond its end
 }
 
 std::vector<std::uint32_t> ends_of_slots(const std::vector<std::uint32_t>& first_end,
@@ -95,15 +98,6 @@ std::vector<std::uint32_t> ends_of_slots(const std::vector<std::uint32_t>& first
 }
 
 }  // namespace
-
-std::uint32_t EndRing::place_of(std::uint32_t slot, std::uint32_t rank) const {
-  const EndRows& own = rows[slot / kLanes];
-  const std::uint32_t lane = slot % kLanes;
-  if (rank < own.ranks) return own.first + rank * static_cast<std::uint32_t>(kLanes) + place_of_lane(lane);
-  std::uint32_t place = own.rest() + rank - own.ranks;
-  for (std::uint32_t s = slot - lane; s < slot; ++s) place += count[s] - std::min(count[s], own.ranks);
-  return place;
-}
 
 EndRing make_ring(const Sweep& sweep, const LargeVector<PairRef>& pairs,
                   const std::vector<std::uint32_t>& first_end, const std::vector<PairEnds>& ends,

@@ -8,7 +8,6 @@
 // the lists, and nothing else does.
 #pragma once
 
-#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -26,7 +25,7 @@ struct Rates {
 
 /// Which slots take part in beats, as of the last lists.
 struct QuickSlots {
-  std::vector<std::uint32_t> ends;     // by slot, up to whole groups: how many of its first ends are quick
+  std::vector<std::uint32_t> ends;     // by group and stand: how many of a grain's first ends are quick
   std::vector<std::uint32_t> most;     // by group: the largest of these
   std::vector<std::uint16_t> quick;    // by group, a bit a lane: quick grains
   std::vector<std::uint16_t> beating;  // the same: those that move in beats

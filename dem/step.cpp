@@ -138,7 +138,7 @@ INTERSTICE_FLATTEN Simulation::PassReport Simulation::move_rows(PairRow<Real>* r
   const Vec3<Each> gravity = all_of(model_.gravity);
   for (std::size_t g = begin / kLanes; g < groups_for(end); ++g) {
     if (kSleep && spares(g * kLanes, (g + 1) * kLanes)) continue;
-    const auto sums = end_sums(ends, pair_contacts_.end_rows(g), pair_contacts_.end_counts() + g * kLanes);
+    const auto sums = end_sums(ends, pair_contacts_.ends_of(g));
     const Vec3<Each> force = simd::converted<double>(sums.force),
                      torque = simd::converted<double>(sums.torque);
     if (options_.energies) add_heat(g);

@@ -64,9 +64,9 @@ void Simulation::note_quick_slots(const std::vector<GrainSite>& sites) {
   for (std::size_t s = 0; s < sites.size(); ++s) {
     const std::size_t g = s / kLanes;
     const auto lane = static_cast<std::uint16_t>(1u << s % kLanes);
-    std::uint32_t& ends = quick_.ends[s];
+    std::uint32_t& ends = quick_.ends[pair_contacts_.stand(s)];
     if (is_quick(s)) {
-      ends = pair_contacts_.end_counts()[s];
+      ends = pair_contacts_.end_count(s);
       quick_.quick[g] |= lane;
     } else {
       for (const Adjacent& e : pair_contacts_.of(s)) ends += is_quick(e.slot);
@@ -132,12 +132,10 @@ INTERSTICE_FLATTEN Simulation::PassReport Simulation::move_rows_rated(PairRow<Re
   PassReport report;
   const auto* const ends = static_cast<const Real*>(view.pairs.end_forces);
   for (std::size_t g = begin / kLanes; g < groups_for(end); ++g) {
-    const std::uint32_t* const count = pair_contacts_.end_counts() + g * kLanes;
-    const Pull all = widened(end_sums(ends, pair_contacts_.end_rows(g), count));
+    const GroupEnds own = pair_contacts_.ends_of(g);
+    const Pull all = widened(end_sums(ends, own));
     Pull quick{all_of({0, 0, 0}), all_of({0, 0, 0})};
-    if (quick_.most[g] > 0)
-      quick = widened(
-          end_sums(ends, pair_contacts_.end_rows(g), count, &quick_.ends[g * kLanes], quick_.most[g]));
+    if (quick_.most[g] > 0) quick = widened(end_sums(ends, own, &quick_.ends[g * kLanes], quick_.most[g]));
     const GroupMotion& m = grains_.motions()[g];
     const Pull q = accelerations(m, quick, gravity_on(quick_.quick[g], model_.gravity)),
                s = accelerations(m, {all.linear - quick.linear, all.angular - quick.angular},
@@ -275,8 +273,7 @@ INTERSTICE_FLATTEN void Simulation::beat_group(PairRow<Real>* rows, const StepVi
   const std::uint32_t beating = quick_.beating[group];
   const auto in_beats = Each::M::from_bits(beating);
   const Pull force =
-      widened(end_sums(ends, pair_contacts_.end_rows(group), pair_contacts_.end_counts() + first,
-                       &quick_.ends[first], quick_.most[group]));
+      widened(end_sums(ends, pair_contacts_.ends_of(group), &quick_.ends[first], quick_.most[group]));
   GroupMotion& m = grains_.motions()[group];
   const Pull q = accelerations(m, force, gravity_on(quick_.quick[group], model_.gravity));
   const double half = 0.5 * beat_;

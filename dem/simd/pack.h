@@ -455,6 +455,28 @@ Pack<T, M> halves_of(const Pack<T, N>& p) {
   }
 }
 
+/// Lane i of the result is lane from[i]; N = 16.
+template <class T, int N>
+Pack<T, N> permuted(const Pack<T, N>& p, const std::uint8_t* from) {
+  static_assert(N == 16);
+#ifdef INTERSTICE_AVX512
+  const __m128i lanes = _mm_loadu_si128(reinterpret_cast<const __m128i*>(from));
+  if constexpr (std::is_same_v<T, float>) {
+    return Pack<T, N>(_mm512_permutexvar_ps(_mm512_cvtepu8_epi32(lanes), p.lanes));
+  } else {
+    const auto half = [&](const __m128i& eight) {
+      return Pack<T, N / 2>(_mm512_permutex2var_pd(p.lo.lanes, _mm512_cvtepu8_epi64(eight), p.hi.lanes));
+    };
+    return {half(lanes), half(_mm_unpackhi_epi64(lanes, lanes))};
+  }
+#else
+  T before[N], after[N];
+  p.store(before);
+  for (int i = 0; i < N; ++i) after[i] = before[from[i]];
+  return Pack<T, N>::load(after);
+#endif
+}
+
 /// Whole numbers as a pack.
 template <class T, int N>
 Pack<T, N> from_counts(const std::uint32_t* counts) {

@@ -39,17 +39,6 @@ auto register_at(const Pack<T, N>& p) {
   }
 }
 
-/// Stores 32 bytes at a time what is to be read again in parts: a load of part of 64 bytes waits until these
-/// have reached the cache.
-template <class T, int N>
-void store_in_pieces(const Pack<T, N>& p, T* to) {
-  if constexpr (N * sizeof(T) <= 32) {
-    p.store(to);
-  } else {
-    store_in_pieces(lower_half(p), to), store_in_pieces(upper_half(p), to + N / 2);
-  }
-}
-
 /// Calls body with the integral constants 0 to n - 1.
 template <int n, class Body>
 void unrolled(const Body& body) {
