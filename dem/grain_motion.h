@@ -33,6 +33,11 @@ struct GroupState {
   Vec3<Each> velocity, spin, acceleration, angular;
 };
 
+/// Accelerations of a group as kept between steps: with two rates those of beats, and those of whole steps.
+struct GroupAcceleration {
+  Vec3<Each> linear, angular, slow_linear, slow_angular;
+};
+
 /// Where a group's grains are now, and how far they went in the step.
 struct GroupStep {
   Vec3<Each> position, step;

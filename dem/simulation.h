@@ -137,7 +137,8 @@ class Simulation {
                         PassReport& report);
   template <class Real>
   void begin_group(PairRow<Real>* rows, std::size_t group, const GroupState& now, PassReport& report);
-  void end_group(std::size_t group, const GroupState& now);
+  void end_group(std::size_t group, const Vec3<Each>& velocity, const Vec3<Each>& spin,
+                 const GroupAcceleration& acceleration);
   template <bool kSleep, class Real>
   PassReport move_rows(PairRow<Real>* rows, const StepView& view, std::size_t begin, std::size_t end,
                        bool begin_next);
@@ -154,8 +155,6 @@ class Simulation {
                              bool begin_next);
   template <class Real>
   void begin_group_rated(PairRow<Real>* rows, std::size_t group, const RatedState& now, PassReport& report);
-  void end_group_rated(std::size_t group, const RatedState& now);
-  void begin_step_rated();
   void finish_beats();
   template <class Real>
   void work_on_beat(PairRow<Real>* rows, bool last);
@@ -170,10 +169,10 @@ class Simulation {
   bool inside(const Vec3d& position) const;
   void remove_leavers();
   void drop_from_lists(const std::vector<std::uint32_t>& kept);
-  double near_reach(double speed) const;
+  double near_reach(double speed, bool pushed) const;
   double speed_of(std::size_t slot) const;
   double candidate_reach_left(std::size_t slot) const;
-  double candidate_reach_of(std::size_t slot) const;
+  double candidate_reach_of(std::size_t slot, bool pushed) const;
   double fastest_wall() const;
   double near_reach_of_walls() const;
   bool candidates_last() const;

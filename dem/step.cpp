@@ -21,26 +21,27 @@ inline void Simulation::begin_group(PairRow<Real>* rows, std::size_t group, cons
 
 /// From present velocities and accelerations.
 void Simulation::begin_step() {
-  if (options_.rates.two()) return begin_step_rated();
-  path_left_.resize(groups_for(grains_.size()) * kLanes, 0);  // grains may have come since lists were made
+  const bool two = options_.rates.two();
+  if (two) {
+    update_lists();  // who takes part in beats follows from them
+    slow_.resize(groups_for(grains_.size()));
+  } else {
+    path_left_.resize(groups_for(grains_.size()) * kLanes, 0);  // grains may have come since lists were made
+  }
   grains_.with_rows([&](auto& rows) {
     const Blocks blocks{grains_.size(), kRowsPerBlock};
     std::vector<PassReport> reports(blocks.count());
     for_blocks(blocks, [&](std::size_t b, std::size_t begin, std::size_t end) {
       for (std::size_t g = begin / kLanes; g < groups_for(end); ++g) {
         const GroupMotion& m = grains_.motions()[g];
-        double a[6][kLanes] = {};
-        for (std::size_t slot = g * kLanes; slot < std::min(end, (g + 1) * kLanes); ++slot) {
-          const GrainAcceleration& from = grains_.accelerations()[slot];
-          for (int axis = 0; axis < 3; ++axis) {
-            a[axis][slot % kLanes] = from.linear[axis];
-            a[axis + 3][slot % kLanes] = from.angular[axis];
-          }
+        const Vec3<Each> v = load(m.vx, m.vy, m.vz), w = load(m.wx, m.wy, m.wz);
+        const GroupAcceleration a = load_accelerations(grains_.accelerations(), g);
+        if (two) {
+          const RatedState now{v, w, a.linear, a.angular, a.slow_linear, a.slow_angular};
+          begin_group_rated(rows.data(), g, now, reports[b]);
+        } else {
+          begin_group(rows.data(), g, {v, w, a.linear, a.angular}, reports[b]);
         }
-        begin_group(
-            rows.data(), g,
-            {load(m.vx, m.vy, m.vz), load(m.wx, m.wy, m.wz), load(a[0], a[1], a[2]), load(a[3], a[4], a[5])},
-            reports[b]);
       }
     });
     take_report(reports);
@@ -153,25 +154,20 @@ INTERSTICE_FLATTEN Simulation::PassReport Simulation::move_rows(PairRow<Real>* r
     if (begin_next) {
       begin_group(rows, g, now, report);
     } else {
-      end_group(g, now);
+      const Vec3<Each> none = all_of({0, 0, 0});
+      end_group(g, now.velocity, now.spin, {now.acceleration, now.angular, none, none});
     }
   }
   return report;
 }
 
 /// Keeps the present velocities and accelerations of a group.
-void Simulation::end_group(std::size_t group, const GroupState& now) {
+void Simulation::end_group(std::size_t group, const Vec3<Each>& velocity, const Vec3<Each>& spin,
+                           const GroupAcceleration& acceleration) {
   GroupMotion& m = grains_.motions()[group];
-  store(now.velocity, m.vx, m.vy, m.vz);
-  store(now.spin, m.wx, m.wy, m.wz);
-  double a[6][kLanes];
-  store(now.acceleration, a[0], a[1], a[2]);
-  store(now.angular, a[3], a[4], a[5]);
-  const std::size_t first = group * kLanes, end = std::min(grains_.size(), first + kLanes);
-  for (std::size_t slot = first; slot < end; ++slot) {
-    const std::size_t i = slot - first;
-    grains_.accelerations()[slot] = {{a[0][i], a[1][i], a[2][i]}, {a[3][i], a[4][i], a[5][i]}};
-  }
+  store(velocity, m.vx, m.vy, m.vz);
+  store(spin, m.wx, m.wy, m.wz);
+  store_accelerations(acceleration, group, grains_.accelerations());
 }
 
 }  // namespace interstice::dem

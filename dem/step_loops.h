@@ -65,6 +65,39 @@ inline void ask_for_motion(const GroupMotion* m) {
   for (const char* p = first; p < first + sizeof(GroupMotion); p += line) __builtin_prefetch(p, 1, 2);
 }
 
+/// Numbers of a kept acceleration, one after the other.
+inline constexpr std::size_t kAccelerationReals = sizeof(GrainAcceleration) / sizeof(double);
+
+/// As lanes what is kept of a group between steps.
+inline GroupAcceleration load_accelerations(const std::vector<GrainAcceleration>& kept, std::size_t group) {
+  double columns[kAccelerationReals][kLanes] = {};
+  const std::size_t first = group * kLanes, end = std::min(kept.size(), first + kLanes);
+  for (std::size_t slot = first; slot < end; ++slot) {
+    const GrainAcceleration& a = kept[slot];
+    std::size_t column = 0;
+    for (const Vec3d* v : {&a.linear, &a.angular, &a.slow_linear, &a.slow_angular})
+      for (int axis = 0; axis < 3; ++axis) columns[column++][slot - first] = (*v)[axis];
+  }
+  const auto at = [&](std::size_t i) { return load(columns[i], columns[i + 1], columns[i + 2]); };
+  return {at(0), at(3), at(6), at(9)};
+}
+inline void store_accelerations(const GroupAcceleration& now, std::size_t group,
+                                std::vector<GrainAcceleration>& kept) {
+  double columns[kAccelerationReals][kLanes];
+  std::size_t column = 0;
+  for (const Vec3<Each>* v : {&now.linear, &now.angular, &now.slow_linear, &now.slow_angular}) {
+    store(*v, columns[column], columns[column + 1], columns[column + 2]);
+    column += 3;
+  }
+  const std::size_t first = group * kLanes, end = std::min(kept.size(), first + kLanes);
+  for (std::size_t slot = first; slot < end; ++slot) {
+    const auto at = [&](std::size_t i) {
+      return Vec3d{columns[i][slot - first], columns[i + 1][slot - first], columns[i + 2][slot - first]};
+    };
+    kept[slot] = {at(0), at(3), at(6), at(9)};
+  }
+}
+
 /// A grain outside the domain: put back through a periodic face; true when it left through an open one.
 template <class Real>
 bool Simulation::wrap_or_leave(PairRow<Real>& row, GrainLabel& label) const {

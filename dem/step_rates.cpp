@@ -148,7 +148,7 @@ INTERSTICE_FLATTEN Simulation::PassReport Simulation::move_rows_rated(PairRow<Re
     if (begin_next) {
       begin_group_rated(rows, g, now, report);
     } else {
-      end_group_rated(g, now);
+      end_group(g, now.velocity, now.spin, {now.quick, now.quick_angular, now.slow, now.slow_angular});
     }
   }
   return report;
@@ -185,55 +185,8 @@ void Simulation::begin_group_rated(PairRow<Real>* rows, std::size_t group, const
   look_for_leavers(rows, moved, group, filled & ~beating, report);
 }
 
-/// Keeps the present velocities and accelerations of a group.
-void Simulation::end_group_rated(std::size_t group, const RatedState& now) {
-  GroupMotion& m = grains_.motions()[group];
-  store(now.velocity, m.vx, m.vy, m.vz);
-  store(now.spin, m.wx, m.wy, m.wz);
-  GroupPull quick, slow;
-  store(now.quick, quick.linear[0], quick.linear[1], quick.linear[2]);
-  store(now.quick_angular, quick.angular[0], quick.angular[1], quick.angular[2]);
-  store(now.slow, slow.linear[0], slow.linear[1], slow.linear[2]);
-  store(now.slow_angular, slow.angular[0], slow.angular[1], slow.angular[2]);
-  const std::size_t first = group * kLanes, end = std::min(grains_.size(), first + kLanes);
-  const auto at = [](const double(&v)[3][kLanes], std::size_t i) { return Vec3d{v[0][i], v[1][i], v[2][i]}; };
-  for (std::size_t slot = first; slot < end; ++slot) {
-    const std::size_t i = slot - first;
-    grains_.accelerations()[slot] = {at(quick.linear, i), at(quick.angular, i), at(slow.linear, i),
-                                     at(slow.angular, i)};
-  }
-}
-
-/// From present velocities and accelerations. Who takes part in beats follows from the lists.
-void Simulation::begin_step_rated() {
-  update_lists();
-  slow_.resize(groups_for(grains_.size()));
-  grains_.with_rows([&](auto& rows) {
-    const Blocks blocks{grains_.size(), kRowsPerBlock};
-    std::vector<PassReport> reports(blocks.count());
-    for_blocks(blocks, [&](std::size_t b, std::size_t begin, std::size_t end) {
-      for (std::size_t g = begin / kLanes; g < groups_for(end); ++g) {
-        GroupPull quick{}, slow{};
-        for (std::size_t slot = g * kLanes; slot < std::min(end, (g + 1) * kLanes); ++slot) {
-          const GrainAcceleration& from = grains_.accelerations()[slot];
-          for (int axis = 0; axis < 3; ++axis) {
-            quick.linear[axis][slot % kLanes] = from.linear[axis];
-            quick.angular[axis][slot % kLanes] = from.angular[axis];
-            slow.linear[axis][slot % kLanes] = from.slow_linear[axis];
-            slow.angular[axis][slot % kLanes] = from.slow_angular[axis];
-          }
-        }
-        const auto of = [](const double(&v)[3][kLanes]) { return load(v[0], v[1], v[2]); };
-        const GroupMotion& m = grains_.motions()[g];
-        begin_group_rated(rows.data(), g,
-                          {load(m.vx, m.vy, m.vz), load(m.wx, m.wy, m.wz), of(quick.linear),
-                           of(quick.angular), of(slow.linear), of(slow.angular)},
-                          reports[b]);
-      }
-    });
-    take_report(reports);
-  });
-}
+template void Simulation::begin_group_rated(PairRow<float>*, std::size_t, const RatedState&, PassReport&);
+template void Simulation::begin_group_rated(PairRow<double>*, std::size_t, const RatedState&, PassReport&);
 
 /// The beats after the first.
 void Simulation::finish_beats() {

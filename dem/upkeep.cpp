@@ -38,10 +38,10 @@ constexpr double kFits = 1 - 1e-6;
 
 }  // namespace
 
-/// The short reach of something that moves with this speed [m].
-double Simulation::near_reach(double speed) const {
+/// The short reach of something that moves with this speed [m]; `pushed`: some wall moves.
+double Simulation::near_reach(double speed, bool pushed) const {
   if (options_.skin > 0) return options_.skin / (2 * kCandidatesLast);
-  const double least = fastest_wall() > 0 ? kLeastReachWhilePushed : kLeastReach;
+  const double least = pushed ? kLeastReachWhilePushed : kLeastReach;
   return mean_diameter_ *
          std::clamp(kHaste * kStepsAhead * dt_ * speed / mean_diameter_, least, kGreatestReach);
 }
@@ -59,9 +59,10 @@ double Simulation::candidate_reach_left(std::size_t slot) const {
          norm(grains_.site(slot).position() - grains_.labels()[slot].built);
 }
 
-double Simulation::candidate_reach_of(std::size_t slot) const {
+double Simulation::candidate_reach_of(std::size_t slot, bool pushed) const {
   if (options_.skin > 0) return options_.skin / 2;
-  return std::max(kCandidatesLast * near_reach(speed_of(slot)), kLeastCandidateReach * mean_diameter_);
+  return std::max(kCandidatesLast * near_reach(speed_of(slot), pushed),
+                  kLeastCandidateReach * mean_diameter_);
 }
 
 double Simulation::fastest_wall() const {
@@ -73,7 +74,7 @@ double Simulation::fastest_wall() const {
 /// How far walls may go before those near grains are listed anew [m].
 double Simulation::near_reach_of_walls() const {
   const double fastest = fastest_wall();
-  return fastest > 0 ? near_reach(fastest) : 0;
+  return fastest > 0 ? near_reach(fastest, true) : 0;
 }
 
 double Simulation::wall_travel() const {
@@ -208,8 +209,9 @@ void Simulation::note_materials() {
 void Simulation::find_candidates(const std::vector<GrainSite>& sites, double longest) {
   std::vector<GrainSite> reaching = sites;
   reach_.resize(sites.size());
+  const bool pushed = fastest_wall() > 0;
   for (std::size_t s = 0; s < sites.size(); ++s) {
-    reach_[s] = static_cast<float>(std::min(candidate_reach_of(s), longest));
+    reach_[s] = static_cast<float>(std::min(candidate_reach_of(s, pushed), longest));
     reaching[s].radius += static_cast<double>(reach_[s]);
   }
   SearchSpace space = search_space();
@@ -225,8 +227,9 @@ void Simulation::refresh(const std::vector<std::uint32_t>& old_slot, const std::
   std::vector<GrainSite> reaching = sites;
   path_left_.assign(groups_for(sites.size()) * kLanes, 0);
   const double kept_back = reserve();
+  const bool pushed = fastest_wall() > 0;
   for (std::size_t s = 0; s < sites.size(); ++s) {
-    const double reach = std::min(near_reach(speed_of(s)) + kept_back, candidate_reach_left(s));
+    const double reach = std::min(near_reach(speed_of(s), pushed) + kept_back, candidate_reach_left(s));
     path_left_[s] = reach - kept_back;
     reaching[s].radius += reach;
   }
