@@ -106,6 +106,42 @@ TEST(Sjkr, PullOffOfTheMedianPairOfPaper004) {
   EXPECT_NEAR(-lowest, 6.64e-9, 0.01e-9);
 }
 
+/// A contact that opens as fast as can be, with loaded springs, at zero overlap.
+template <class T>
+ContactForce<T> force_without_overlap(const Laws& laws) {
+  PairConstants<double> c =
+      derive_pair_constants({8200, 1e9, 0.3}, {8200, 1e9, 0.3}, {0.35, 0.3, 0.2, 1e6});
+  c.stiffness = 1e3, c.work_of_adhesion = 1e-3;
+  ContactKinematics<T> kin{};
+  kin.normal = {T(0), T(0.6), T(0.8)};
+  kin.effective_radius = T(1e-5), kin.effective_mass = T(1e-10);
+  kin.area = sphere_sphere_area(T(2e-5), T(2e-5), T(4e-5), T(1) / T(4e-5), T(0));
+  kin.velocity = {T(0.3), T(0.2), T(0.5)}, kin.relative_spin = {T(100), T(-20), T(3)};
+  const ContactMemory<T> loaded{{{T(1e-7), T(0), T(0)}, T(10)}, {{T(0), T(1e-12), T(0)}, T(1e-9)}};
+  return evaluate_contact(laws, kin, c.template as<T>(), loaded, step_constants<T>(1e-8, 1e-3));
+}
+
+/// Kernels leave out to set what these laws make zero (fades_out); the others would leave something behind.
+template <class T>
+void fades_out_where_it_says() {
+  for (const NormalLaw normal : {NormalLaw::hertz, NormalLaw::hooke})
+    for (const TangentialLaw tangential :
+         {TangentialLaw::none, TangentialLaw::slider, TangentialLaw::mindlin})
+      for (const RollingLaw rolling : {RollingLaw::none, RollingLaw::cdt, RollingLaw::epsd2})
+        for (const CohesionLaw cohesion : {CohesionLaw::none, CohesionLaw::sjkr, CohesionLaw::dmt}) {
+          const Laws laws{normal, false, tangential, rolling, cohesion};
+          const ContactForce<T> f = force_without_overlap<T>(laws);
+          const bool zero = f.force == Vec3<T>{} && f.rolling_torque == Vec3<T>{} &&
+                            f.tangential == Vec3<T>{} && f.memory.sliding.force == Vec3<T>{} &&
+                            f.memory.rolling.force == Vec3<T>{};
+          EXPECT_EQ(zero, fades_out(laws)) << int(normal) << int(tangential) << int(rolling) << int(cohesion);
+        }
+}
+TEST(Contact, FadesOutWithItsOverlapWhereItSaysSo) {
+  fades_out_where_it_says<double>();
+  fades_out_where_it_says<float>();
+}
+
 /// A spring that holds `force`, stored at the stiffness 10 N/m.
 TangentialSpring<double> holding(const Vec3d& force) { return {force, 10}; }
 

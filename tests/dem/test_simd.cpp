@@ -74,6 +74,32 @@ TYPED_TEST(Packs, InverseLengthsAreFiniteWhereSquaresUnderflow) {
   EXPECT_TRUE(std::isfinite(dem::inverse_length_of(none)));
 }
 
+TYPED_TEST(Packs, InverseSpinsAreFiniteAndExactOverTheirRange) {
+  using Real = TypeParam;
+  for (const double spin : {1e-15, 1e-6, 1.0, 1e9}) {
+    const auto s = static_cast<Real>(spin);
+    EXPECT_NEAR(
+        static_cast<double>(dem::inverse_spin_of(Vec3<Real>{s * Real(0.6), Real(0), s * Real(-0.8)})) * spin,
+        1, 1e-6);
+  }
+  EXPECT_TRUE(std::isfinite(dem::inverse_spin_of(Vec3<Real>{Real(0), Real(0), Real(0)})));
+}
+
+TYPED_TEST(Packs, LanesChangePlacesAsAsked) {
+  using Real = TypeParam;
+  Random random(11, 0);
+  for (int round = 0; round < 100; ++round) {
+    Real x[16], y[16];
+    std::uint8_t from[16];
+    for (int i = 0; i < 16; ++i) {
+      x[i] = static_cast<Real>(i + 1);
+      from[i] = static_cast<std::uint8_t>(random.uniform(0, 16));
+    }
+    permuted(Pack<Real, 16>::load(x), from).store(y);
+    for (int i = 0; i < 16; ++i) EXPECT_EQ(y[i], x[from[i]]);
+  }
+}
+
 /// Sixteen rows of ten numbers, none like another.
 template <class Real>
 struct Rows {
