@@ -7,6 +7,7 @@
 #include "dem/step_loops.h"
 
 namespace interstice::dem {
+
 /// Begins the step of a group of grains.
 template <class Real>
 inline void Simulation::begin_group(PairRow<Real>* rows, std::size_t group, const GroupState& now,
