@@ -82,8 +82,9 @@ class PairContacts {
   GroupEnds ends_of(std::size_t g) const {
     return {ring_.rows[g], ring_.rank_begin.data() + ring_.rows[g].ranks, &ring_.count[g * kLanes]};
   }
-  /// By group and where each slot stands in it: how many ends it has.
+  /// Where a slot's column of ends stands in its group, counted from the first group's first.
   std::size_t stand(std::size_t slot) const { return ring_.stand(slot); }
+  /// How many ends a slot has.
   std::uint32_t end_count(std::size_t slot) const { return ring_.count[ring_.stand(slot)]; }
   /// Where the further ends of the grain in `slot` lie, and one that nobody collects.
   std::uint32_t further_end(std::size_t slot, std::uint32_t rank) const {

@@ -33,9 +33,9 @@ struct GroupState {
   Vec3<Each> velocity, spin, acceleration, angular;
 };
 
-/// Accelerations of a group as kept between steps: with two rates those of beats, and those of whole steps.
-struct GroupAcceleration {
-  Vec3<Each> linear, angular, slow_linear, slow_angular;
+/// Forces on a group of grains, or accelerations: translation and rotation.
+struct Pull {
+  Vec3<Each> linear, angular;
 };
 
 /// Where a group's grains are now, and how far they went in the step.

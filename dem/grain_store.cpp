@@ -35,10 +35,12 @@ void GrainStore::clear() {
   labels_.clear();
   materials_.clear();
   accelerations_.clear();
+  slow_accelerations_.clear();
   rests_.clear();
 }
 
-void GrainStore::add(const GrainRow& g, const GrainAcceleration& acceleration) {
+void GrainStore::add(const GrainRow& g, const GrainAcceleration& acceleration,
+                     const GrainAcceleration& slow_acceleration) {
   const std::size_t slot = size();
   if (single_) {
     put_row(singles_, slot, g);
@@ -51,6 +53,7 @@ void GrainStore::add(const GrainRow& g, const GrainAcceleration& acceleration) {
   labels_.push_back({g.position(), g.mass, static_cast<std::uint32_t>(g.id), g.layer});
   materials_.push_back(g.material);
   accelerations_.push_back(acceleration);
+  if (two_rates_) slow_accelerations_.push_back(slow_acceleration);
   if (keeps_rests_) rests_.emplace_back();
 }
 
@@ -65,6 +68,7 @@ void GrainStore::take(std::span<const std::uint32_t> order) {
   take_from(labels_, order, order.size());
   take_from(materials_, order, order.size());
   take_from(accelerations_, order, order.size());
+  take_from(slow_accelerations_, order, order.size());
   take_from(rests_, order, order.size());
 }
 
@@ -80,9 +84,15 @@ void GrainStore::halt(std::size_t s) {
 void GrainStore::set_stepping(bool stepping) {
   stepping_ = stepping;
   if (!stepping) return;
-  accelerations_.clear();
-  if (accelerations_.capacity() > size() + size() / 16)
-    accelerations_.shrink_to_fit();  // grains came one by one
+  for (auto* kept : {&accelerations_, &slow_accelerations_}) {
+    kept->clear();
+    if (kept->capacity() > size() + size() / 16) kept->shrink_to_fit();  // grains came one by one
+  }
+}
+
+void GrainStore::keep_accelerations() {
+  accelerations_.resize(size());
+  if (two_rates_) slow_accelerations_.resize(size());
 }
 
 GrainRow GrainStore::row(std::size_t s) const {
@@ -113,7 +123,7 @@ std::vector<GrainSite> GrainStore::sites() const {
 std::size_t GrainStore::bytes() const {
   const auto held = [](const auto& v) { return v.capacity() * sizeof(v[0]); };
   return held(singles_) + held(doubles_) + held(motions_) + held(labels_) + held(materials_) +
-         held(accelerations_) + held(rests_);
+         held(accelerations_) + held(slow_accelerations_) + held(rests_);
 }
 
 }  // namespace interstice::dem

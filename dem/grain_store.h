@@ -53,8 +53,7 @@ struct alignas(64) GroupMotion {
 
 /// At the present time, kept between steps only.
 struct GrainAcceleration {
-  Vec3d linear, angular;                              // [m/s^2], [rad/s^2]; with two rates those of beats
-  Vec3d slow_linear{0, 0, 0}, slow_angular{0, 0, 0};  // those of whole steps (rates.h)
+  Vec3d linear, angular;  // [m/s^2], [rad/s^2]
 };
 
 struct GrainLabel {
@@ -66,12 +65,15 @@ struct GrainLabel {
 
 class GrainStore {
  public:
-  /// `rests`: does it keep how long grains have been at rest?
-  GrainStore(Precision precision, bool rests) : single_(precision == Precision::mixed), keeps_rests_(rests) {}
+  /// `rests`: does it keep how long grains have been at rest? `two_rates`: what accelerates grains in whole
+  /// steps apart from what does in beats (rates.h)?
+  GrainStore(Precision precision, bool rests, bool two_rates)
+      : single_(precision == Precision::mixed), keeps_rests_(rests), two_rates_(two_rates) {}
 
   std::size_t size() const { return labels_.size(); }
   void clear();
-  void add(const GrainRow& grain, const GrainAcceleration& acceleration);
+  void add(const GrainRow& grain, const GrainAcceleration& acceleration,
+           const GrainAcceleration& slow_acceleration = {{0, 0, 0}, {0, 0, 0}});
   /// Slot s gets what stood in slot order[s]; slots that are not named are dropped.
   void take(std::span<const std::uint32_t> order);
 
@@ -98,8 +100,14 @@ class GrainStore {
   std::vector<GrainLabel>& labels() { return labels_; }
   const std::vector<GrainLabel>& labels() const { return labels_; }
   const std::vector<std::uint16_t>& materials() const { return materials_; }
+  /// With two rates those of beats.
   std::vector<GrainAcceleration>& accelerations() { return accelerations_; }
   const std::vector<GrainAcceleration>& accelerations() const { return accelerations_; }
+  /// With two rates those of whole steps, otherwise none.
+  std::vector<GrainAcceleration>& slow_accelerations() { return slow_accelerations_; }
+  const std::vector<GrainAcceleration>& slow_accelerations() const { return slow_accelerations_; }
+  /// Makes room for the accelerations of all grains.
+  void keep_accelerations();
 
   /// By slot; none unless kept.
   std::vector<GrainRest>& rests() { return rests_; }
@@ -116,14 +124,14 @@ class GrainStore {
   std::size_t bytes() const;
 
  private:
-  bool single_, keeps_rests_;
+  bool single_, keeps_rests_, two_rates_;
   bool stepping_ = false;
   LargeVector<PairRow<float>> singles_;
   LargeVector<PairRow<double>> doubles_;
   LargeVector<GroupMotion> motions_;
   std::vector<GrainLabel> labels_;
   std::vector<std::uint16_t> materials_;
-  std::vector<GrainAcceleration> accelerations_;  // empty while steps follow each other
+  std::vector<GrainAcceleration> accelerations_, slow_accelerations_;  // empty while steps follow each other
   std::vector<GrainRest> rests_;
 };
 

@@ -51,8 +51,8 @@ SavedState Simulation::save() const {
     append(grains, a.linear);
     append(grains, a.angular);
     if (options_.rates.two()) {
-      append(s.real["slow_accelerations"], a.slow_linear);
-      append(s.real["slow_accelerations"], a.slow_angular);
+      append(s.real["slow_accelerations"], grains_.slow_accelerations()[slot].linear);
+      append(s.real["slow_accelerations"], grains_.slow_accelerations()[slot].angular);
     }
     grains.insert(grains.end(), {g.radius, g.mass});
     labels.insert(labels.end(), {g.id, g.material, g.layer});
@@ -138,10 +138,8 @@ void Simulation::restore_slow_accelerations(const SavedState& s) {
   if (slow.size() != 6 * grains_.size()) {
     throw InputError("checkpoint: arrays of unequal length; start the run anew");
   }
-  for (std::size_t i = 0; i < grains_.size(); ++i) {
-    grains_.accelerations()[i].slow_linear = vec_at(slow, 6 * i);
-    grains_.accelerations()[i].slow_angular = vec_at(slow, 6 * i + 3);
-  }
+  for (std::size_t i = 0; i < grains_.size(); ++i)
+    grains_.slow_accelerations()[i] = {vec_at(slow, 6 * i), vec_at(slow, 6 * i + 3)};
 }
 
 /// The same.

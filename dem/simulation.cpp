@@ -48,7 +48,7 @@ Simulation::Simulation(Model model, double time_step, const SimulationOptions& o
       kernels_(find_kernels(model_.laws, options.precision, options.energies)),
       motion_of_wall_(model_.walls.size()),
       wall_velocities_(model_.walls.size()),
-      grains_(options.precision, options.sleep_tolerance > 0),
+      grains_(options.precision, options.sleep_tolerance > 0, options.rates.two()),
       pair_contacts_(kept_memories(model_.laws, options), options.precision, used_rates(options)),
       wall_contacts_(kept_memories(model_.laws, options), options.precision, used_rates(options)) {
   check_rates(options_);
@@ -103,16 +103,15 @@ void Simulation::add_grains(std::span<const NewGrain> grains) {
                        g.spin.z,     next_id_++,   g.layer,      g.material};
     // The first step's acceleration is gravity alone: exact for a grain in flight, first order for one in
     // contact.
-    grains_.add(row, first_acceleration(g.radius));
+    const Vec3d none{0, 0, 0};
+    if (options_.rates.two() && !options_.rates.is_quick(g.radius)) {
+      grains_.add(row, {none, none}, {model_.gravity, none});
+    } else {
+      grains_.add(row, {model_.gravity, none});
+    }
     if (options_.energies) energies_.emplace_back().inserted = kinetic_energy(row);
   }
   list_valid_ = list_valid_ && grains.empty();
-}
-
-GrainAcceleration Simulation::first_acceleration(double radius) const {
-  const Vec3d none{0, 0, 0};
-  if (options_.rates.two() && !options_.rates.is_quick(radius)) return {none, none, model_.gravity, none};
-  return {model_.gravity, none};
 }
 
 void Simulation::set_wall_velocity(std::size_t wall, const Vec3d& velocity) {

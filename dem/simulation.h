@@ -126,7 +126,6 @@ class Simulation {
   void place_walls(int beat = 0);
   double wall_travel() const;
   void begin_step();
-  GrainAcceleration first_acceleration(double radius) const;
   template <class Body>
   void for_blocks(const Blocks& blocks, const Body& body) const;
   template <class Work>
@@ -138,7 +137,7 @@ class Simulation {
   template <class Real>
   void begin_group(PairRow<Real>* rows, std::size_t group, const GroupState& now, PassReport& report);
   void end_group(std::size_t group, const Vec3<Each>& velocity, const Vec3<Each>& spin,
-                 const GroupAcceleration& acceleration);
+                 const Pull& acceleration);
   template <bool kSleep, class Real>
   PassReport move_rows(PairRow<Real>* rows, const StepView& view, std::size_t begin, std::size_t end,
                        bool begin_next);

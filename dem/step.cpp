@@ -1,6 +1,7 @@
 // What a step does with forces: pairs are evaluated by the kernels, then every grain collects what its
 // contacts did, completes its velocities and (to spare a pass over memory) begins the next step.
 #include "base/parallel.h"
+#include "dem/ask_for.h"
 #include "dem/end_sums.h"
 #include "dem/flatten.h"
 #include "dem/simulation.h"
@@ -36,9 +37,10 @@ void Simulation::begin_step() {
       for (std::size_t g = begin / kLanes; g < groups_for(end); ++g) {
         const GroupMotion& m = grains_.motions()[g];
         const Vec3<Each> v = load(m.vx, m.vy, m.vz), w = load(m.wx, m.wy, m.wz);
-        const GroupAcceleration a = load_accelerations(grains_.accelerations(), g);
+        const Pull a = load_accelerations(grains_.accelerations(), g);
         if (two) {
-          const RatedState now{v, w, a.linear, a.angular, a.slow_linear, a.slow_angular};
+          const Pull slow = load_accelerations(grains_.slow_accelerations(), g);
+          const RatedState now{v, w, a.linear, a.angular, slow.linear, slow.angular};
           begin_group_rated(rows.data(), g, now, reports[b]);
         } else {
           begin_group(rows.data(), g, {v, w, a.linear, a.angular}, reports[b]);
@@ -60,7 +62,7 @@ StepView Simulation::step_view(const PairView& pairs) {
 }
 
 void Simulation::evaluate_and_move(bool begin_next) {
-  if (!begin_next) grains_.accelerations().resize(grains_.size());
+  if (!begin_next) grains_.keep_accelerations();
   pair_contacts_.memories().keep_forces(!begin_next || options_.energies);
   wall_contacts_.memories().keep_forces(!begin_next || options_.energies);
   grains_.with_rows([&](auto& rows) {
@@ -117,15 +119,11 @@ template <class Real>
 void Simulation::evaluate_scattered(const StepView& view, std::size_t begin, std::size_t end) {
   constexpr std::size_t at_once = 4;
   const auto* const rows = static_cast<const PairRow<Real>*>(view.rows);
-  const auto ask_for = [&](const PairRow<Real>& row) {
-    for (std::size_t line = 0; line < sizeof(row); line += 64)
-      __builtin_prefetch(reinterpret_cast<const char*>(&row) + line, 0, 2);
-  };
   for (std::size_t group = begin; group < end; group += at_once) {
     const std::size_t until = std::min(end, group + at_once);
     const PairRef* const next = view.pairs.pairs + until * kLanes;
     const PairRef* const next_end = view.pairs.pairs + std::min(end, until + at_once) * kLanes;
-    for (const PairRef* p = next; p < next_end; ++p) ask_for(rows[p->a]), ask_for(rows[p->b]);
+    for (const PairRef* p = next; p < next_end; ++p) ask_for<false>(rows + p->a), ask_for<false>(rows + p->b);
     kernels_.pairs(model_.laws, view, group, until, {});
   }
 }
@@ -145,7 +143,7 @@ INTERSTICE_FLATTEN Simulation::PassReport Simulation::move_rows(PairRow<Real>* r
                      torque = simd::converted<double>(sums.torque);
     if (options_.energies) add_heat(g);
     GroupMotion& m = grains_.motions()[g];
-    ask_for_motion(&m + 1);
+    ask_for(&m + 1);
     GroupState now;
     now.acceleration = multiply_add(Each::load(m.inverse_mass), force, gravity);
     now.angular = Each::load(m.inverse_inertia) * torque;
@@ -155,8 +153,7 @@ INTERSTICE_FLATTEN Simulation::PassReport Simulation::move_rows(PairRow<Real>* r
     if (begin_next) {
       begin_group(rows, g, now, report);
     } else {
-      const Vec3<Each> none = all_of({0, 0, 0});
-      end_group(g, now.velocity, now.spin, {now.acceleration, now.angular, none, none});
+      end_group(g, now.velocity, now.spin, {now.acceleration, now.angular});
     }
   }
   return report;
@@ -164,7 +161,7 @@ INTERSTICE_FLATTEN Simulation::PassReport Simulation::move_rows(PairRow<Real>* r
 
 /// Keeps the present velocities and accelerations of a group.
 void Simulation::end_group(std::size_t group, const Vec3<Each>& velocity, const Vec3<Each>& spin,
-                           const GroupAcceleration& acceleration) {
+                           const Pull& acceleration) {
   GroupMotion& m = grains_.motions()[group];
   store(velocity, m.vx, m.vy, m.vz);
   store(spin, m.wx, m.wy, m.wz);

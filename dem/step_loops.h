@@ -58,34 +58,26 @@ MemoryAhead Simulation::rows_ahead(const PairRow<Real>* rows, std::size_t block,
   return {at(front[block]), at(front[last ? block : block + 1])};
 }
 
-/// Has the motion of a group of grains brought near.
-inline void ask_for_motion(const GroupMotion* m) {
-  constexpr std::size_t line = 64;
-  const auto* const first = reinterpret_cast<const char*>(m);
-  for (const char* p = first; p < first + sizeof(GroupMotion); p += line) __builtin_prefetch(p, 1, 2);
-}
-
 /// Numbers of a kept acceleration, one after the other.
 inline constexpr std::size_t kAccelerationReals = sizeof(GrainAcceleration) / sizeof(double);
 
 /// As lanes what is kept of a group between steps.
-inline GroupAcceleration load_accelerations(const std::vector<GrainAcceleration>& kept, std::size_t group) {
+inline Pull load_accelerations(const std::vector<GrainAcceleration>& kept, std::size_t group) {
   double columns[kAccelerationReals][kLanes] = {};
   const std::size_t first = group * kLanes, end = std::min(kept.size(), first + kLanes);
   for (std::size_t slot = first; slot < end; ++slot) {
     const GrainAcceleration& a = kept[slot];
     std::size_t column = 0;
-    for (const Vec3d* v : {&a.linear, &a.angular, &a.slow_linear, &a.slow_angular})
+    for (const Vec3d* v : {&a.linear, &a.angular})
       for (int axis = 0; axis < 3; ++axis) columns[column++][slot - first] = (*v)[axis];
   }
   const auto at = [&](std::size_t i) { return load(columns[i], columns[i + 1], columns[i + 2]); };
-  return {at(0), at(3), at(6), at(9)};
+  return {at(0), at(3)};
 }
-inline void store_accelerations(const GroupAcceleration& now, std::size_t group,
-                                std::vector<GrainAcceleration>& kept) {
+inline void store_accelerations(const Pull& now, std::size_t group, std::vector<GrainAcceleration>& kept) {
   double columns[kAccelerationReals][kLanes];
   std::size_t column = 0;
-  for (const Vec3<Each>* v : {&now.linear, &now.angular, &now.slow_linear, &now.slow_angular}) {
+  for (const Vec3<Each>* v : {&now.linear, &now.angular}) {
     store(*v, columns[column], columns[column + 1], columns[column + 2]);
     column += 3;
   }
@@ -94,7 +86,7 @@ inline void store_accelerations(const GroupAcceleration& now, std::size_t group,
     const auto at = [&](std::size_t i) {
       return Vec3d{columns[i][slot - first], columns[i + 1][slot - first], columns[i + 2][slot - first]};
     };
-    kept[slot] = {at(0), at(3), at(6), at(9)};
+    kept[slot] = {at(0), at(3)};
   }
 }
 

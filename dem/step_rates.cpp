@@ -15,11 +15,6 @@
 namespace interstice::dem {
 namespace {
 
-/// Forces on a group of grains, or accelerations: translation and rotation.
-struct Pull {
-  Vec3<Each> linear, angular;
-};
-
 template <class P>
 Pull widened(const EndSums<P>& sums) {
   return {simd::converted<double>(sums.force), simd::converted<double>(sums.torque)};
@@ -93,7 +88,7 @@ void Simulation::put_beating_first(std::vector<std::uint32_t>& order) const {
 }
 
 void Simulation::evaluate_and_move_rated(bool begin_next) {
-  if (!begin_next) grains_.accelerations().resize(grains_.size());
+  if (!begin_next) grains_.keep_accelerations();
   pair_contacts_.memories().keep_forces(!begin_next);
   wall_contacts_.memories().keep_forces(!begin_next);
   slow_.resize(groups_for(grains_.size()));
@@ -148,7 +143,8 @@ INTERSTICE_FLATTEN Simulation::PassReport Simulation::move_rows_rated(PairRow<Re
     if (begin_next) {
       begin_group_rated(rows, g, now, report);
     } else {
-      end_group(g, now.velocity, now.spin, {now.quick, now.quick_angular, now.slow, now.slow_angular});
+      end_group(g, now.velocity, now.spin, q);
+      store_accelerations(s, g, grains_.slow_accelerations());
     }
   }
   return report;

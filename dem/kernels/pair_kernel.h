@@ -2,6 +2,7 @@
 // pair is a mask or a select, so that a pair's bits do not depend on its neighbours in the list.
 #pragma once
 
+#include "dem/ask_for.h"
 #include "dem/flatten.h"
 #include "dem/kernels/contact_group.h"
 #include "dem/kernels/rows.h"
@@ -132,15 +133,15 @@ class LittleByLittle {
   LittleByLittle(const MemoryAhead& ahead, std::size_t pieces)
       : line_(ahead.begin),
         end_(ahead.end),
-        piece_((static_cast<std::size_t>(end_ - line_) + pieces * kLine - 1) / (pieces * kLine) * kLine) {}
+        piece_((static_cast<std::size_t>(end_ - line_) + pieces * kCacheLine - 1) / (pieces * kCacheLine) *
+               kCacheLine) {}
   void ask() {
     const char* const until = line_ + std::min(piece_, static_cast<std::size_t>(end_ - line_));
-    for (; line_ < until; line_ += kLine) __builtin_prefetch(line_, 1, 2);
+    ask_for(line_, until);
     line_ = until;
   }
 
  private:
-  static constexpr std::size_t kLine = 64;
   const char* line_;
   const char* end_;
   std::size_t piece_;

@@ -4,7 +4,7 @@
 #   compare_peers.sh INTERSTICE [ROUNDS [PART...]]
 #   PART: bed-35k, bed-200k, bed-1m (LIGGGHTS on settled beds), lammps, yade (on 35,000 equal grains), spreading (LIGGGHTS, whole runs);
 #   all of them unless some are named. A code that is missing costs its part only; Debian packages: liggghts, lammps, yade.
-#   Environment: STEPS in a block of 35,000 grains (40; fewer of the larger beds), SHARE: 20 for a 20th of the spreading run.
+#   Environment: STEPS in a block of 35,000 grains (40; half as many of the larger beds), SHARE: 20 for a 20th of the spreading run.
 set -eu
 command=$(realpath "$1")
 here=$(realpath "$(dirname "$0")")/peers
@@ -28,8 +28,8 @@ for part in $parts; do
   echo
   case $part in
     bed-35k) needs liggghts && beside_liggghts 35000 "$block" "equal powder wide" "sjkr none" "1 2" ;;
-    bed-200k) needs liggghts && beside_liggghts 200000 $((block / 4 + 1)) "equal powder" sjkr "1 2" ;;
-    bed-1m) needs liggghts && beside_liggghts 1000000 $((block / 8 + 1)) equal sjkr "1 2" ;;
+    bed-200k) needs liggghts && beside_liggghts 200000 $((block / 2)) "equal powder" sjkr "1 2" ;;
+    bed-1m) needs liggghts && beside_liggghts 1000000 $((block / 2)) equal sjkr "1 2" ;;
     lammps) needs lmp && beside_lammps "$block" ;;
     yade) needs yade && beside_yade $((block / 2 + 1)) ;;
     spreading) needs liggghts && spreading "$share" ;;

@@ -128,22 +128,23 @@ Simulation leaking_cloud(const SimulationOptions& options) {
 }
 
 TEST(SameBits, WhileGrainsLeave) {
+  constexpr std::int64_t steps = 100 * 64;  // grains that left are taken away every 64
   const auto run = [](const SimulationOptions& options, std::int64_t at_once) {
     Simulation sim = leaking_cloud(options);
-    for (std::int64_t s = 0; s < 6000; s += at_once) sim.advance(at_once);
-    EXPECT_GT(sim.grains_lost(), 30);
+    for (std::int64_t s = 0; s < steps; s += at_once) sim.advance(at_once);
+    EXPECT_GT(sim.grains_lost(), 40);
     EXPECT_GT(sim.grains(), 200u);
     GrainColumns c;
     sim.copy_columns(c);
     return c;
   };
-  const GrainColumns chosen = run({}, 6000);
-  expect_same_bits(chosen, run({.reference = true}, 6000));
-  expect_same_bits(chosen, run({.skin = 2e-5}, 6000));
+  const GrainColumns chosen = run({}, steps);
+  expect_same_bits(chosen, run({.reference = true}, steps));
+  expect_same_bits(chosen, run({.skin = 2e-5}, steps));
   expect_same_bits(chosen, run({.skin = 4e-5}, 1));
   const Rates rates{12e-6, 4};
-  const GrainColumns rated = run({.rates = rates}, 6000);
-  expect_same_bits(rated, run({.reference = true, .rates = rates}, 6000));
+  const GrainColumns rated = run({.rates = rates}, steps);
+  expect_same_bits(rated, run({.reference = true, .rates = rates}, steps));
   expect_same_bits(rated, run({.skin = 2e-5, .rates = rates}, 2));
 }
 
