@@ -13,13 +13,13 @@ Parts::Parts(std::size_t rows_, std::size_t count) : rows(rows_) {
 
 namespace {
 
-/// The order of pairs: shared ones first, by their earlier row; then block after block of their earlier rows,
-/// in each block pairs that touch before those that are only near, and pairs of sleepers last: these fill
-/// groups of their own that are soon done.
+/// The order of pairs: shared ones first, class by class; then block after block of their earlier rows, in
+/// each block class by class: pairs that are only near, or sleep, fill groups of their own that are soon
+/// done.
 class PairKeys {
  public:
   PairKeys(const std::vector<PairRef>& pairs, const PairClasses& classes, const Parts& parts, bool all_shared)
-      : rows_(parts.blocks() * kRowsPerBlock), of_pair_(pairs.size()) {
+      : shared_(parts.blocks() * kRowsPerBlock / kLanes), of_pair_(pairs.size()) {
     std::vector<std::uint16_t> part_of_block(parts.blocks());
     for (std::size_t p = 0; p < parts.count(); ++p)
       for (std::size_t b = parts.first_block[p]; b < parts.first_block[p + 1]; ++b)
@@ -31,19 +31,20 @@ class PairKeys {
       const auto [first, last] = std::minmax(pairs[k].a, pairs[k].b);
       const bool shared = all_shared || last - first > farthest ||
                           part_of_block[first / kRowsPerBlock] != part_of_block[last / kRowsPerBlock];
+      const std::size_t block = first / kRowsPerBlock;
       of_pair_[k] = static_cast<std::uint32_t>(
-          shared ? first + (classes.is_quick(k) ? rows_ : 0)
-                 : begin_of(first / kRowsPerBlock) + classes.of(k) * kRowsPerBlock + first % kRowsPerBlock);
+          shared ? classes.of(k) * shared_ + first / kLanes
+                 : begin_of(block) + turn_of(classes.of(k), block) * kRowsPerBlock + first % kRowsPerBlock);
     }
   }
 
   std::uint32_t of_pair(std::size_t k) const { return of_pair_[k]; }
   bool is_shared(std::size_t k) const { return of_pair_[k] < begin_of(0); }
   /// The first key of quick shared pairs.
-  std::size_t shared_quick() const { return rows_; }
+  std::size_t shared_quick() const { return PairClasses::kQuick * shared_; }
   /// Keys of unshared pairs of a block.
   std::size_t begin_of(std::size_t block) const {
-    return 2 * rows_ + PairClasses::kCount * kRowsPerBlock * block;
+    return PairClasses::kCount * (shared_ + kRowsPerBlock * block);
   }
   /// Of these the first of quick pairs.
   std::size_t quick_of(std::size_t block) const {
@@ -52,7 +53,14 @@ class PairKeys {
   std::size_t count(std::size_t blocks) const { return begin_of(blocks); }
 
  private:
-  std::size_t rows_;
+  /// Every other block begins with the class that the one before ends with: fewer groups hold both pairs that
+  /// touch and such that do not.
+  static std::size_t turn_of(std::size_t pair_class, std::size_t block) {
+    constexpr std::size_t last = PairClasses::kQuick - 1;
+    return block % 2 == 1 && pair_class <= last ? last - pair_class : pair_class;
+  }
+
+  std::size_t shared_;  // keys of a class of shared pairs
   std::vector<std::uint32_t> of_pair_;
 };
 

@@ -53,11 +53,11 @@ struct PairOrder {
   std::size_t places = 0;            // a multiple of kLanes
 };
 
-/// Pairs in the order of what a step has to do with them: those that may touch now, those that are only near,
-/// those of two sleepers; then the quick ones (rates.h) that may touch and those that are only near, which
-/// fill groups of their own.
+/// Pairs in the order of what a step has to do with them: those that touch, those so near that most contacts
+/// to come are among them, those that are only near, those of two sleepers; then the quick ones (rates.h)
+/// that touch, are next to it or only near, which fill groups of their own.
 struct PairClasses {
-  static constexpr std::size_t kTouching = 0, kNear = 1, kAsleep = 2, kQuick = 3, kCount = 5;
+  static constexpr std::size_t kTouching = 0, kNext = 1, kNear = 2, kAsleep = 3, kQuick = 4, kCount = 7;
 
   std::array<std::size_t, kCount> end{};  // one past the last of each class
 
