@@ -7,8 +7,8 @@
 
 #include <memory>
 
+#include "apps/instruction_set.h"
 #include "base/error.h"
-#include "base/version.h"
 
 namespace interstice::apps {
 namespace {
@@ -33,7 +33,9 @@ void add_compute_options(CLI::App& command, ComputeOptions& o) {
                      "auto, cpu, cuda or reference (serial, neighbours by brute force)");
   command.add_option("--precision", o.precision,
                      "double, or mixed (positions double, forces and shares of voxels single)");
-  command.add_option("--isa", o.isa, "instruction set: auto, or the one that this binary was built for");
+  command.add_option("--isa", o.isa,
+                     "instruction set: auto (the richest of the programs here that runs on this machine), or "
+                     "one of them such as x86-64-v3");
   command.add_option("--threads", o.threads, "number of threads (default: all cores)");
   command.add_flag("--json", o.json, "print the result as one JSON object");
   command.add_flag("--quiet", o.quiet, "no progress");
@@ -52,11 +54,10 @@ void apply_compute_options(const ComputeOptions& o) {
     errors.push_back(fmt::format("--precision: '{}' is unknown; allowed: double, mixed; leave the option out",
                                  o.precision));
   }
-  if (o.isa != "auto" && o.isa != kBuildArch) {
-    errors.push_back(
-        fmt::format("--isa: '{}' is not in this binary; allowed: auto, {}; build again with "
-                    "-DINTERSTICE_ARCH={}",
-                    o.isa, kBuildArch, o.isa));
+  try {
+    run_on_instruction_set(o.isa);
+  } catch (const InputError& e) {
+    errors.insert(errors.end(), e.messages().begin(), e.messages().end());
   }
   if (o.threads < 0 || o.threads > 4096) {
     errors.push_back(

@@ -6,6 +6,7 @@
 #include <new>
 
 #include "apps/command.h"
+#include "apps/instruction_set.h"
 #include "base/error.h"
 #include "base/version.h"
 
@@ -41,6 +42,7 @@ int run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   try {
+    apps::note_call(argv);
     return run(argc, argv);
   } catch (const apps::Exit& e) {
     return e.status;

@@ -38,14 +38,14 @@ class CommandTest : public ::testing::Test {
 
   /// The line for the shell: "interstice ARGUMENTS", with its output in the folder.
   std::string shell_line(const std::string& arguments) const {
-    return std::string(INTERSTICE_COMMAND) + " " + arguments + " >'" + at("stdout") + "' 2>'" + at("stderr") +
-           "'";
+    return command_ + " " + arguments + " >'" + at("stdout") + "' 2>'" + at("stderr") + "'";
   }
   Outcome interstice(const std::string& arguments) const {
     const int status = std::system(shell_line(arguments).c_str());
     return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, slurp(at("stdout")), slurp(at("stderr"))};
   }
 
+  std::string command_ = INTERSTICE_COMMAND;
   std::filesystem::path folder_;
 };
 
