@@ -13,6 +13,7 @@
 #include "apps/command.h"
 #include "base/error.h"
 #include "base/version.h"
+#include "coupling/scene/units.h"
 #include "dem/simulation.h"
 #include "dem/statistics.h"
 #include "voxel/field.h"
@@ -29,7 +30,8 @@ struct BenchArguments {
   Copies copies{0, 0};      // 0: as `grains` asks for
   int blocks = 5, steps = 100, warm_up = 200;
   double voxel = 17.3e-6;
-  bool no_cohesion = false, no_rolling = false;
+  std::string short_steps_below;  // "": all grains take the same steps
+  bool no_cohesion = false, no_rolling = false, two_materials = false;
   ComputeOptions compute;
 };
 
@@ -71,25 +73,30 @@ Json state_of(const dem::Simulation& sim) {
 
 /// Of the whole machine, at the median rate: divided by the threads' number it is no time of one thread.
 void add_times(Json& j) {
-  const double ns = 1e9 / j["particle_steps_per_s"]["median"].get<double>(),
+  const double rate = j["particle_steps_per_s"]["median"].get<double>(), ns = 1e9 / rate,
                contacts = j["before"]["contacts_per_grain"].get<double>();
+  j["simulated_us_per_s"] = 1e6 * rate / j["grains"].get<double>() * j["time_step_s"].get<double>();
   j["ns_per_particle_step"] = ns;
   j["ns_per_contact_step"] = contacts > 0 ? Json(ns / contacts) : Json();
 }
 
-Json bench_steps(const Bed& bed, const BenchArguments& a) {
+Json bench_steps(const Bed& bed, const BenchArguments& a, double short_below) {
   const dem::Model model = bed_model(bed, laws_of(a));
+  const dem::Rates two_rates = short_below > 0 ? bed_rates(bed, short_below) : dem::Rates{};
   dem::Simulation sim(
-      model, bed_time_step(bed, model),
+      model, two_rates.beats * bed_time_step(bed, model),
       {.reference = a.compute.backend == "reference",
-       .precision = a.compute.precision == "mixed" ? dem::Precision::mixed : dem::Precision::real64});
+       .precision = a.compute.precision == "mixed" ? dem::Precision::mixed : dem::Precision::real64,
+       .rates = two_rates});
   sim.add_grains(bed.grains);
   sim.advance(a.warm_up);
   Json j;
   j["grains"] = sim.grains();
   j["time_step_s"] = sim.time_step();
+  j["short_steps"] = two_rates.beats;
   j["cohesion"] = !a.no_cohesion;
   j["rolling_friction"] = !a.no_rolling;
+  j["two_materials"] = a.two_materials;
   j["before"] = state_of(sim);
   std::vector<double> rates;
   for (int b = 0; b < a.blocks; ++b) {
@@ -142,7 +149,10 @@ void check(const BenchArguments& a) {
 void bench(const BenchArguments& a) {
   apply_compute_options(a.compute);
   check(a);
-  const Bed bed = bed_for(a);
+  const double short_below =
+      a.short_steps_below.empty() ? 0 : scene::parse_length(a.short_steps_below, "--short-steps-below");
+  Bed bed = bed_for(a);
+  if (a.two_materials) mix_materials(bed);
   if (!a.write_bed.empty()) write_bed(bed, a.write_bed);
   Json j;
   j["version"] = kVersion;
@@ -153,7 +163,7 @@ void bench(const BenchArguments& a) {
                                                   : tbb::info::default_concurrency();
   j["bed"] = a.bed.empty() ? a.sizes : a.bed;
   j["precision"] = a.compute.precision;
-  j["steps"] = bench_steps(bed, a);
+  j["steps"] = bench_steps(bed, a, short_below);
   j["field"] = bench_field(bed, a);
   fmt::print("{}\n", j.dump(2));
 }
@@ -175,11 +185,15 @@ void add_bench(CLI::App& root) {
   c->add_option("--tiles-x", a->copies.x, "or: copies of the periodic bed along x")->excludes(grains);
   c->add_option("--tiles-y", a->copies.y, "... along y")->excludes(grains);
   c->add_option("--write-bed", a->write_bed, "write the bed to this text dump before it is timed");
+  c->add_option("--short-steps-below", a->short_steps_below,
+                "grains below this diameter take several steps for each of the others, such as 20um");
   c->add_option("--warm-up", a->warm_up, "steps before those that are timed")->capture_default_str();
   c->add_option("--blocks", a->blocks, "timed blocks")->capture_default_str();
   c->add_option("--steps", a->steps, "steps in a block")->capture_default_str();
   c->add_flag("--no-cohesion", a->no_cohesion, "without SJKR");
   c->add_flag("--no-rolling", a->no_rolling, "without CDT");
+  c->add_flag("--two-materials", a->two_materials,
+              "every other grain is of the floor's material: as stiff and heavy, with more friction");
   add_compute_options(*c, a->compute);
   c->callback([a] { bench(*a); });
 }

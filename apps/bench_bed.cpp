@@ -11,6 +11,7 @@
 #include "coupling/io/atomic_file.h"
 #include "coupling/io/particle_reader.h"
 #include "coupling/scene/sizes.h"
+#include "coupling/stream/step_choice.h"
 #include "dem/packing.h"
 #include "dem/simulation.h"
 #include "dem/time_step.h"
@@ -42,6 +43,14 @@ scene::Diameters diameters_of(const std::string& sizes) {
     throw InputError(fmt::format("bench: --sizes {} is not known; one of {}", sizes, kBedSizes));
   }
   return d;
+}
+
+/// Of the grains that are not below a radius [m].
+double smallest_radius(const Bed& bed, double least) {
+  double smallest = INFINITY;
+  for (const dem::NewGrain& g : bed.grains)
+    if (g.radius >= least) smallest = std::min(smallest, g.radius);
+  return smallest;
 }
 
 /// Moves the grains for a while, from rest and without springs at first; what speed they have in the end is
@@ -100,7 +109,7 @@ dem::Model bed_model(const Bed& bed, const BedLaws& laws, double softening) {
   m.materials = {{8200, 1e9 * softening, 0.3}, {8200, 1e9 * softening, 0.3}};
   const double k = 1e6 * std::pow(softening, 2.0 / 3);
   const dem::PairCoefficients powder{0.35, 0.3, 0.005, k}, wall{0.35, 0.9, 0.005, k};
-  m.pairs = {powder, wall, wall, powder};
+  m.pairs = {powder, wall, wall, wall};
   m.laws.tangential = dem::TangentialLaw::mindlin;
   if (laws.rolling) m.laws.rolling = dem::RollingLaw::cdt;
   if (laws.cohesion) m.laws.cohesion = dem::CohesionLaw::sjkr;
@@ -121,9 +130,19 @@ dem::Model bed_model(const Bed& bed, const BedLaws& laws, double softening) {
 }
 
 double bed_time_step(const Bed& bed, const dem::Model& model) {
-  double smallest = INFINITY;
-  for (const dem::NewGrain& g : bed.grains) smallest = std::min(smallest, g.radius);
-  return 0.2 * dem::rayleigh_time(smallest, model.materials[0]);
+  return 0.2 * dem::rayleigh_time(smallest_radius(bed, 0), model.materials[0]);
+}
+
+dem::Rates bed_rates(const Bed& bed, double short_below) {
+  const double smallest = smallest_radius(bed, 0), limit = 0.5 * short_below;
+  if (!(smallest < limit))
+    throw InputError(
+        fmt::format("bench: --short-steps-below {:.4g} um: no grain is below it, the smallest has "
+                    "{:.4g} um; give more, or leave it out",
+                    1e6 * short_below, 2e6 * smallest));
+  // The Rayleigh time goes with the radius.
+  const double beats = std::floor(smallest_radius(bed, limit) / smallest * (1 + 1e-9));
+  return {limit, static_cast<int>(std::clamp(beats, 1.0, double{stream::kMostShortSteps}))};
 }
 
 Bed make_bed_cell(const std::string& sizes, const BedLaws& laws) {
@@ -175,6 +194,10 @@ Bed tiled(const Bed& cell, const Copies& copies) {
     }
   }
   return bed;
+}
+
+void mix_materials(Bed& bed) {
+  for (std::size_t i = 1; i < bed.grains.size(); i += 2) bed.grains[i].material = 1;
 }
 
 void write_bed(const Bed& bed, const std::string& path) {

@@ -7,6 +7,7 @@
 
 #include "dem/columns.h"
 #include "dem/model.h"
+#include "dem/rates.h"
 
 namespace interstice::apps {
 
@@ -32,11 +33,17 @@ struct Copies {
 inline constexpr const char* kBedSizes =
     "powder (5 to 65 um, paper 004's), equal (40 um), wide (2 to 100 um)";
 
-/// The powder of paper 004 on a floor; `softening` multiplies Young's modulus and keeps pull-off over weight.
+/// The powder of paper 004 on a floor of another material; `softening` multiplies Young's modulus and keeps
+/// pull-off over weight.
 dem::Model bed_model(const Bed& bed, const BedLaws& laws, double softening = 1);
 
-/// 0.2 of the Rayleigh time of the smallest grain [s].
+/// 0.2 of the Rayleigh time of the smallest grain [s]; where grains take two rates of steps, that of the
+/// small.
 double bed_time_step(const Bed& bed, const dem::Model& model);
+
+/// Two rates of steps for grains above and below a diameter [m]: as many short ones to each of the others as
+/// the smallest above it allow. One rate where that is one. Throws InputError where no grain is below.
+dem::Rates bed_rates(const Bed& bed, double short_below);
 
 /// A periodic cell of settled grains, 0.25 mm x 0.25 mm and about 1.5 mm high: a 24th of 35,000. Throws
 /// InputError for sizes not named above.
@@ -48,6 +55,9 @@ Bed read_bed(const std::string& path, bool periodic);
 /// As many copies as come closest to that many grains, about six times as long along x as along y.
 Copies copies_for(const Bed& cell, std::int64_t grains);
 Bed tiled(const Bed& cell, const Copies& copies);
+
+/// Makes every other grain one of the walls' material.
+void mix_materials(Bed& bed);
 
 /// As a text dump, which other programs and read_bed() read.
 void write_bed(const Bed& bed, const std::string& path);

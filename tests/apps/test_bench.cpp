@@ -47,11 +47,41 @@ TEST_F(Bench, MadeBedsAreAtRestWrittenAndReadBackToo) {
       copies["ns_per_particle_step"].get<double>() / copies["before"]["contacts_per_grain"].get<double>());
 }
 
+/// Grains of two materials, as stiff and heavy as one, lie as well, and friction that is three times as high
+/// lets no contact go.
+TEST_F(Bench, GrainsOfTwoMaterialsStayAtRest) {
+  const Json one = bench("--sizes equal --grains 1458")["steps"],
+             two = bench("--sizes equal --grains 1458 --two-materials")["steps"];
+  EXPECT_EQ(two["two_materials"], true);
+  expect_at_rest(two["after"]);
+  EXPECT_NEAR(two["after"]["coordination"], one["after"]["coordination"], 0.05);
+  EXPECT_NE(two["after"]["kinetic_energy_over_mgd"], one["after"]["kinetic_energy_over_mgd"]);
+}
+
+/// The smallest grain of this cell decides: as many short steps as it is smaller than the limit, whole ones.
+TEST_F(Bench, SmallGrainsMayTakeShorterSteps) {
+  const std::string bed = at("bed.csv");
+  std::ofstream(bed) << "x,y,z,radius\n2e-4,2e-4,50e-6,50e-6\n2e-4,3e-4,20e-6,20e-6\n2e-4,4e-4,6e-6,6e-6\n";
+  const Json one = bench("--bed '" + bed + "'")["steps"],
+             two = bench("--bed '" + bed + "' --short-steps-below 30um")["steps"];
+  EXPECT_EQ(one["short_steps"], 1);
+  EXPECT_EQ(two["short_steps"], 3);  // 20 um over 6 um
+  EXPECT_DOUBLE_EQ(two["time_step_s"].get<double>(), 3 * one["time_step_s"].get<double>());
+  EXPECT_DOUBLE_EQ(
+      two["simulated_us_per_s"].get<double>(),
+      two["particle_steps_per_s"]["median"].get<double>() / 3 * two["time_step_s"].get<double>() * 1e6);
+  const Outcome refused = interstice("bench --bed '" + bed + "' --short-steps-below 10um");
+  EXPECT_EQ(refused.status, 2);
+  EXPECT_NE(refused.err.find("no grain is below it, the smallest has 12 um"), std::string::npos)
+      << refused.err;
+}
+
 TEST_F(Bench, WhatCannotBeMeasuredIsRefused) {
   for (const auto& [options, words] : {std::pair{"--sizes huge", "--sizes huge is not known; one of powder"},
                                        {"--blocks 0", "at least 1"},
                                        {"--warm-up -1", "at least 0"},
-                                       {"--bed nowhere.dump", "nowhere.dump"}}) {
+                                       {"--bed nowhere.dump", "nowhere.dump"},
+                                       {"--short-steps-below 20", "20 has no unit"}}) {
     const Outcome r = interstice(std::string("bench ") + options);
     EXPECT_EQ(r.status, 2) << options;
     EXPECT_NE(r.err.find(words), std::string::npos) << r.err;

@@ -2,7 +2,7 @@
 # This engine and other codes on the same beds, in turns: Hertz and Mindlin's springs with history, gravity, the same positions at the start
 # and the same time step. Prints the tables of docs/PERFORMANCE.md: medians (lowest-highest) of all blocks, and ratios of medians.
 #   compare_peers.sh INTERSTICE [ROUNDS [PART...]]
-#   PART: bed-35k, bed-200k, bed-1m (LIGGGHTS on settled beds), lammps, yade (on 35,000 equal grains), spreading (LIGGGHTS, whole runs);
+#   PART: bed-35k, bed-materials (of two, mixed), bed-200k, bed-1m (LIGGGHTS on settled beds), lammps, yade (on 35,000 equal grains), spreading (LIGGGHTS, whole runs);
 #   all of them unless some are named. A code that is missing costs its part only; Debian packages: liggghts, lammps, yade.
 #   Environment: STEPS in a block of 35,000 grains (40; half as many of the larger beds), SHARE: 20 for a 20th of the spreading run.
 set -eu
@@ -10,7 +10,7 @@ command=$(realpath "$1")
 here=$(realpath "$(dirname "$0")")/peers
 rounds=${2:-5}
 [ $# -lt 2 ] && shift 1 || shift 2
-parts=${*:-bed-35k bed-200k bed-1m lammps yade spreading}
+parts=${*:-bed-35k bed-materials bed-200k bed-1m lammps yade spreading}
 block=${STEPS:-40}
 share=${SHARE:-20}
 work=$(mktemp -d)
@@ -28,6 +28,7 @@ for part in $parts; do
   echo
   case $part in
     bed-35k) needs liggghts && beside_liggghts 35000 "$block" "equal powder wide" "sjkr none" "1 2" ;;
+    bed-materials) needs liggghts && beside_liggghts 35000 "$block" "equal powder" sjkr "1 2" 2 ;;
     bed-200k) needs liggghts && beside_liggghts 200000 $((block / 2)) "equal powder" sjkr "1 2" ;;
     bed-1m) needs liggghts && beside_liggghts 1000000 $((block / 2)) equal sjkr "1 2" ;;
     lammps) needs lmp && beside_lammps "$block" ;;

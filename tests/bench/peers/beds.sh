@@ -1,15 +1,15 @@
 # Settled beds with periodic sides, timed in blocks. Sourced by compare_peers.sh; rates are in million particle-steps/s.
 
-# sizes, grains, options of bench: makes bed.dump and bed.data; sets grains and dt
+# sizes, grains, options of bench, types of grains: makes bed.dump and bed.data; sets grains and dt
 make_bed() {
   "$command" bench --sizes "$1" --grains "$2" $3 --warm-up 200 --blocks 1 --steps 1 --write-bed bed.dump > bed.json
   dt=$(sed -n 's/.*"time_step_s": \([^,]*\),*/\1/p' bed.json)
   coordination=$(sed -n '/"before"/,/}/s/.*"coordination": \([0-9.]*\).*/\1/p' bed.json | cut -c1-4)
-  awk '/NUMBER OF ATOMS/ { getline n; next } /BOX BOUNDS/ { for (i = 0; i < 3; ++i) { getline; hi[i] = $2 } next }
+  awk -v types="${4:-1}" '/NUMBER OF ATOMS/ { getline n; next } /BOX BOUNDS/ { for (i = 0; i < 3; ++i) { getline; hi[i] = $2 } next }
        /ITEM: ATOMS/ { rows = 1
          printf "bed\n\n%d atoms\n2 atom types\n0 %s xlo xhi\n0 %s ylo yhi\n-5e-06 %s zlo zhi\n\nAtoms\n\n", n, hi[0], hi[1], hi[2] + 2e-3
          next }
-       rows { printf "%d 1 %.12g 8200 %s %s %s\n", $1, 2 * $5, $2, $3, $4 }' bed.dump > bed.data
+       rows { printf "%d %d %.12g 8200 %s %s %s\n", $1, types - $1 % types, 2 * $5, $2, $3, $4 }' bed.dump > bed.data
   grains=$(awk '/ atoms/ { print $1; exit }' bed.data)
 }
 
@@ -37,15 +37,17 @@ best_skin() {
   done | sort -g | tail -1 | cut -d' ' -f2
 }
 
-# grains, steps in a block, sizes, cohesions, threads
+# grains, steps in a block, sizes, cohesions, threads, types of grains
 beside_liggghts() {
   wanted=$1
+  types=${6:-1}
   echo "| bed | coordination | cohesion | threads | LIGGGHTS' best skin, um | LIGGGHTS | double | ratio | mixed | ratio |"
   echo "|---|---|---|---|---|---|---|---|---|---|"
   for sizes in $3; do
     for cohesion in $4; do
       case $cohesion in sjkr) option= ;; *) option=--no-cohesion ;; esac
-      make_bed "$sizes" "$wanted" "$option"
+      make_bed "$sizes" "$wanted" "$option" "$types"
+      [ "$types" = 1 ] || option="$option --two-materials"
       for threads in $5; do
         skin=$(best_skin "$2" "$threads" "$cohesion")
         : > theirs; : > double; : > mixed
