@@ -29,8 +29,8 @@ for part in $parts; do
   case $part in
     bed-35k) needs liggghts && beside_liggghts 35000 "$block" "equal powder wide" "sjkr none" "1 2" ;;
     bed-materials) needs liggghts && beside_liggghts 35000 "$block" "equal powder" sjkr "1 2" 2 ;;
-    bed-200k) needs liggghts && beside_liggghts 200000 $((block / 2)) "equal powder" sjkr "1 2" ;;
-    bed-1m) needs liggghts && beside_liggghts 1000000 $((block / 2)) equal sjkr "1 2" ;;
+    bed-200k) needs liggghts && beside_liggghts 200000 $((block / 2)) "equal powder" "sjkr none" "1 2" ;;
+    bed-1m) needs liggghts && beside_liggghts 1000000 $((block / 2)) "equal powder" "sjkr none" "1 2" ;;
     lammps) needs lmp && beside_lammps "$block" ;;
     yade) needs yade && beside_yade $((block / 2 + 1)) ;;
     spreading) needs liggghts && spreading "$share" ;;
