@@ -32,8 +32,8 @@ constexpr double kHaste = 1.5;
 constexpr double kLeastReach = 0.001, kLeastReachWhilePushed = 0.01, kGreatestReach = 0.1;
 /// The least long reach, in mean diameters.
 constexpr double kLeastCandidateReach = 0.02;
-/// Pairs this near, as a share of their short reaches, are next to touch: in a flow nine of ten contacts that
-/// come while a list lasts are among them.
+/// Pairs this near, as a share of their short reaches, are next to touch. Where powder flows, groups that
+/// must be worked on are so fewest: 12.7 of 16 places touch, 11.8 with 0.003, 12.3 with 0.1, 11.0 without.
 constexpr double kNextShare = 0.03;
 /// Reaches are kept in single precision: those that must fit are so much shorter.
 constexpr double kFits = 1 - 1e-6;
