@@ -45,12 +45,19 @@ void FieldStream::submit() {
 void FieldStream::finish() {
   const auto start = Clock::now();
   std::unique_lock lock(mutex_);
-  changed_.wait(lock, [this] {
-    return failure_ || (slots_[0] != Slot::full && slots_[0] != Slot::working && slots_[1] != Slot::full &&
-                        slots_[1] != Slot::working);
-  });
+  changed_.wait(lock, [this] { return all_done(); });
   wait_seconds_ += seconds_since(start);
   rethrow();
+}
+
+bool FieldStream::idle() const {
+  const std::lock_guard lock(mutex_);
+  return all_done();
+}
+
+bool FieldStream::all_done() const {
+  return failure_ || (slots_[0] != Slot::full && slots_[0] != Slot::working && slots_[1] != Slot::full &&
+                      slots_[1] != Slot::working);
 }
 
 double FieldStream::work_seconds() const {

@@ -40,6 +40,8 @@ class FieldStream {
   void submit();
   /// Waits until all is done. Rethrows what the work threw.
   void finish();
+  /// Would finish() return at once?
+  bool idle() const;
 
   double work_seconds() const;                           // spent by the other thread
   double wait_seconds() const { return wait_seconds_; }  // spent by the run, waiting
@@ -47,6 +49,7 @@ class FieldStream {
  private:
   enum class Slot { free, filling, full, working };
   void loop();
+  bool all_done() const;
   void rethrow();
 
   std::function<void(const Snapshot&)> work_;

@@ -88,6 +88,7 @@ class Run {
   bool warned_ = false;
   double file_seconds_ = 0;
   Clock::time_point last_checkpoint_ = Clock::now(), last_report_ = Clock::now();
+  bool phase_to_keep_ = false;  // a phase has ended since the last checkpoint
   double reported_steps_ = 0, reported_time_ = 0;
 };
 
@@ -308,6 +309,7 @@ void Run::checkpoint() {
   state.wall_seconds = wall_seconds();
   write_checkpoint(options_.folder / "checkpoint.h5", sim_, rains_, state, checkpoint_mark_);
   last_checkpoint_ = Clock::now();
+  phase_to_keep_ = false;
   file_seconds_ += seconds_since(start);
 }
 
@@ -405,7 +407,10 @@ RunResult Run::go() {
     if (state_.phase == scene_.phases.size()) break;
     report_progress();
     if (stop_requested(result)) break;
-    if (over || seconds_since(last_checkpoint_) >= checkpoint_seconds) checkpoint();
+    phase_to_keep_ = phase_to_keep_ || over;
+    // Drawing a phase's figures takes seconds, in which the run goes on.
+    if ((phase_to_keep_ && stream_->idle()) || seconds_since(last_checkpoint_) >= checkpoint_seconds)
+      checkpoint();
   }
   result.finished = state_.phase == scene_.phases.size();
   return close(result);
