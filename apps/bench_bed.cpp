@@ -141,8 +141,7 @@ dem::Rates bed_rates(const Bed& bed, double short_below) {
                     "{:.4g} um; give more, or leave it out",
                     1e6 * short_below, 2e6 * smallest));
   // The Rayleigh time goes with the radius.
-  const double beats = std::floor(smallest_radius(bed, limit) / smallest * (1 + 1e-9));
-  return {limit, static_cast<int>(std::clamp(beats, 1.0, double{stream::kMostShortSteps}))};
+  return {limit, stream::short_steps_in(smallest_radius(bed, limit) / smallest)};
 }
 
 Bed make_bed_cell(const std::string& sizes, const BedLaws& laws) {

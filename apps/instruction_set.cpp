@@ -10,6 +10,8 @@
 #include <filesystem>
 #include <optional>
 #include <stdexcept>
+#include <string_view>
+#include <vector>
 
 #include "base/error.h"
 #include "base/version.h"

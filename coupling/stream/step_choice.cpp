@@ -82,11 +82,14 @@ int short_steps(const scene::Scene& scene, const dem::Model& model,
   const double by_collision = std::isfinite(limits.collision_time)
                                   ? limits.collision_time / choice.limits.collision_time
                                   : by_rayleigh;
-  return static_cast<int>(
-      std::clamp(std::floor(std::min(by_rayleigh, by_collision) * (1 + 1e-9)), 1.0, double{kMostShortSteps}));
+  return short_steps_in(std::min(by_rayleigh, by_collision));
 }
 
 }  // namespace
+
+int short_steps_in(double times_as_long) {
+  return static_cast<int>(std::clamp(std::floor(times_as_long * (1 + 1e-9)), 1.0, double{kMostShortSteps}));
+}
 
 StepChoice choose_step(const scene::Scene& scene, const dem::Model& model) {
   std::vector<dem::SmallestGrain> smallest;

@@ -26,6 +26,9 @@ struct StepChoice {
 /// its contacts, where the two resonate (Biesiadecki & Skeel, J. Comput. Phys. 109, 1993, 318).
 inline constexpr int kMostShortSteps = 8;
 
+/// How many steps of small grains to make one of others that may take steps so many times as long.
+int short_steps_in(double times_as_long);
+
 /// Chooses the step, or judges the one that the scene asks for. Throws InputError above 0.2 of the collision
 /// time unless the scene allows it, and where a wall would cross half the smallest grain in one step.
 StepChoice choose_step(const scene::Scene& scene, const dem::Model& model);
