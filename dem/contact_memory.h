@@ -1,5 +1,5 @@
-// What contacts of a group of kLanes remember from step to step, beside their springs (springs.h); the store of
-// both is contact_memories.h.
+// What contacts of a group of kLanes remember from step to step, beside their springs (springs.h); the store
+// of both is contact_memories.h.
 #pragma once
 
 #include <cstdint>

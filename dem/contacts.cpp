@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/parallel.h"
+#include "dem/grain_store.h"
 
 namespace interstice::dem {
 namespace {
@@ -45,7 +46,11 @@ struct OldEnds {
 }  // namespace
 
 PairContacts::PairContacts(const KeptMemories& kept, Precision precision, const Rates& rates)
-    : memories_(kept, precision), rates_(rates), ring_forces_(precision), kept_forces_(precision) {}
+    : precision_(precision),
+      memories_(kept, precision),
+      rates_(rates),
+      ring_forces_(precision),
+      kept_forces_(precision) {}
 
 /// Empty places get a copy of a listed pair of their group, so that they can be worked on like any other.
 void PairContacts::place_pairs(const std::vector<PairRef>& found, const PairOrder& order) {
@@ -63,6 +68,10 @@ void PairContacts::place_pairs(const std::vector<PairRef>& found, const PairOrde
         static_cast<std::size_t>(std::countr_one(memories_.group(g).listed));  // empty places come last
     for (std::size_t lane = listed; lane < kLanes; ++lane) pairs_[g * kLanes + lane] = pairs_[g * kLanes];
   }
+  const std::uint32_t stride = row_stride(precision_);
+  resize_tightly(row_offsets_, order.places);
+  for (std::size_t k = 0; k < order.places; ++k)
+    row_offsets_[k] = {pairs_[k].a * stride, pairs_[k].b * stride};
 }
 
 void PairContacts::replace(const std::vector<PairRef>& found, const PairClasses& classes,
@@ -81,7 +90,7 @@ void PairContacts::replace(const std::vector<PairRef>& found, const PairClasses&
       if (from != kNoPair) memories_.inherit(k, old, from);
     }
   });
-  ring_ = make_ring(sweep_, pairs_, first_end_, build_adjacency(sites), further_ends);
+  ring_ = make_ring(sweep_, pairs_, first_end_, build_adjacency(sites), further_ends, precision_);
   ring_forces_.reset(ring_.places * kEndReals);
   kept_forces_.reset(ring_.kept * kEndReals);
 }
@@ -90,6 +99,7 @@ PairView PairContacts::view() {
   const MemoryView m = memories_.view();
   return {memories_.groups(),
           pairs_.data(),
+          row_offsets_.data(),
           ring_.of_pair.data(),
           m.bits,
           m.sliding,
@@ -113,10 +123,10 @@ void PairContacts::fetch_shared(std::size_t block) {
 }
 
 std::size_t PairContacts::bytes() const {
-  return memories_.bytes() + bytes_of(pairs_) + bytes_of(ring_.rows) + bytes_of(ring_.count) +
-         bytes_of(ring_.rank_begin) + bytes_of(ring_.of_pair) + bytes_of(ring_.nobodys) +
-         bytes_of(ring_.shared) + ring_forces_.bytes() + kept_forces_.bytes() + bytes_of(first_end_) +
-         bytes_of(pair_of_end_);
+  return memories_.bytes() + bytes_of(pairs_) + bytes_of(row_offsets_) + bytes_of(ring_.rows) +
+         bytes_of(ring_.count) + bytes_of(ring_.rank_begin) + bytes_of(ring_.of_pair) +
+         bytes_of(ring_.nobodys) + bytes_of(ring_.shared) + ring_forces_.bytes() + kept_forces_.bytes() +
+         bytes_of(first_end_) + bytes_of(pair_of_end_);
 }
 
 std::vector<PairEnds> PairContacts::build_adjacency(const std::vector<GrainSite>& sites) {

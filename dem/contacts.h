@@ -26,13 +26,17 @@ struct Adjacent {
   bool second;         // this grain is b
 };
 
-/// Numbers at one end: force [N] and torque [N m], with a zero after each.
-inline constexpr std::size_t kEndReals = 8;
+/// Where the rows of a pair's grains begin, in doubles from the first row.
+struct PairOffsets {
+  std::uint32_t a, b;
+};
+
 /// What the kernels see of the pairs. Springs: by group, number and lane; ends: by end and number; both in
 /// the kernels' number type; null where not kept.
 struct PairView {
   std::size_t groups;
   const PairRef* pairs;
+  const PairOffsets* rows;
   const PairEnds* ends;
   GroupBits* bits;
   void* sliding;
@@ -86,11 +90,12 @@ class PairContacts {
   std::size_t stand(std::size_t slot) const { return ring_.stand(slot); }
   /// How many ends a slot has.
   std::uint32_t end_count(std::size_t slot) const { return ring_.count[ring_.stand(slot)]; }
-  /// Where the further ends of the grain in `slot` lie, and one that nobody collects.
+  /// Where the further ends of the grain in `slot` lie, and one that nobody collects, as EndRing::of_pair.
   std::uint32_t further_end(std::size_t slot, std::uint32_t rank) const {
-    return ring_.place_of(static_cast<std::uint32_t>(slot), first_end_[slot + 1] - first_end_[slot] + rank);
+    return end_stride(precision_) *
+           ring_.place_of(static_cast<std::uint32_t>(slot), first_end_[slot + 1] - first_end_[slot] + rank);
   }
-  std::uint32_t nobodys_end(std::size_t block) const { return ring_.nobodys[block]; }
+  std::uint32_t nobodys_end(std::size_t block) const { return end_stride(precision_) * ring_.nobodys[block]; }
   /// Brings forces of shared pairs to where the grains of a block collect them.
   void fetch_shared(std::size_t block);
   std::size_t bytes() const;
@@ -101,11 +106,13 @@ class PairContacts {
   void place_pairs(const std::vector<PairRef>& found, const PairOrder& order);
   std::vector<PairEnds> build_adjacency(const std::vector<GrainSite>& sites);
 
+  Precision precision_;
   ContactMemories memories_;
   Rates rates_;
   Sweep sweep_;
   std::size_t listed_ = 0;
   LargeVector<PairRef> pairs_;
+  LargeVector<PairOffsets> row_offsets_;  // of pairs_
   EndRing ring_;
   Reals ring_forces_, kept_forces_;       // by ring_
   std::vector<std::uint32_t> first_end_;  // of each slot, and one past the last

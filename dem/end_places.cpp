@@ -101,8 +101,9 @@ std::vector<std::uint32_t> ends_of_slots(const std::vector<std::uint32_t>& first
 
 EndRing make_ring(const Sweep& sweep, const LargeVector<PairRef>& pairs,
                   const std::vector<std::uint32_t>& first_end, const std::vector<PairEnds>& ends,
-                  const std::vector<std::uint32_t>& further) {
+                  const std::vector<std::uint32_t>& further, Precision precision) {
   const Parts& parts = sweep.parts;
+  const std::uint32_t stride = end_stride(precision);
   EndRing ring;
   ring.count = ends_of_slots(first_end, further);
   place_groups(ring, sweep, pairs, lay_out(ring));
@@ -120,16 +121,16 @@ EndRing make_ring(const Sweep& sweep, const LargeVector<PairRef>& pairs,
       while (!shared && part + 1 < parts.count() && k >= sweep.first_group[part + 1] * kLanes) ++part;
       const auto nobody =
           shared ? static_cast<std::uint32_t>(ring.kept - 1) : ring.nobodys[parts.first_block[part]];
-      ring.of_pair[k] = {nobody, nobody};
+      ring.of_pair[k] = {nobody * stride, nobody * stride};
       continue;
     }
     const PairEnds in_ring{place(pairs[k].a, ends[k].a), place(pairs[k].b, ends[k].b)};
     if (!shared) {
-      ring.of_pair[k] = in_ring;
+      ring.of_pair[k] = {in_ring.a * stride, in_ring.b * stride};
       continue;
     }
     const auto kept = static_cast<std::uint32_t>(2 * k);
-    ring.of_pair[k] = {kept, kept + 1};
+    ring.of_pair[k] = {kept * stride, (kept + 1) * stride};
     by_block[pairs[k].a / kRowsPerBlock].push_back({in_ring.a, kept});
     by_block[pairs[k].b / kRowsPerBlock].push_back({in_ring.b, kept + 1});
   }

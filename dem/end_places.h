@@ -12,16 +12,23 @@
 #include <cstdint>
 #include <vector>
 
-#include "base/large_pages.h"
+#include "dem/reals.h"
 #include "dem/simd/transpose.h"
 #include "dem/sweep.h"
 
 namespace interstice::dem {
 
-/// Where the two ends of a pair put their forces.
+/// Of the two ends of a pair.
 struct PairEnds {
   std::uint32_t a, b;
 };
+
+/// Numbers at one end: force [N] and torque [N m], with a zero after each.
+inline constexpr std::size_t kEndReals = 8;
+/// In doubles, from one end to the next.
+constexpr std::uint32_t end_stride(Precision precision) {
+  return static_cast<std::uint32_t>(kEndReals * real_bytes(precision) / sizeof(double));
+}
 
 /// Sums of ends become lanes with the fewest instructions in an order of its own (simd/transpose.h): the
 /// column into which the sum at a place of the group turns, and the reverse.
@@ -57,12 +64,14 @@ struct EndRing {
   std::vector<EndRows> rows;              // of each group of slots
   std::vector<std::uint32_t> count;       // by group and place: ends of a grain, most first
   std::vector<std::uint32_t> rank_begin;  // of each rank of each group, from the group's first place on
-  LargeVector<PairEnds> of_pair;          // of pairs shared by parts: their places in what is kept apart
-  std::size_t places = 0;                 // in all
-  std::vector<std::uint32_t> nobodys;     // by block of rows: for empty places of lists; nobody reads it
-  std::vector<SharedEnd> shared;          // by block of rows
-  std::vector<std::uint32_t> of_block;    // the first of each block's, and one past the last
-  std::size_t kept = 0;                   // places for shared pairs
+  // Where pairs put their forces, in doubles from the ring's begin, or for pairs shared by parts from that of
+  // what is kept apart.
+  LargeVector<PairEnds> of_pair;
+  std::size_t places = 0;               // in all
+  std::vector<std::uint32_t> nobodys;   // by block of rows: for empty places of lists; nobody reads it
+  std::vector<SharedEnd> shared;        // by block of rows
+  std::vector<std::uint32_t> of_block;  // the first of each block's, and one past the last
+  std::size_t kept = 0;                 // places for shared pairs
 
   /// Where a slot stands in its group.
   std::size_t stand(std::size_t slot) const {
@@ -80,6 +89,6 @@ struct EndRing {
 /// has beside.
 EndRing make_ring(const Sweep& sweep, const LargeVector<PairRef>& pairs,
                   const std::vector<std::uint32_t>& first_end, const std::vector<PairEnds>& ends,
-                  const std::vector<std::uint32_t>& further);
+                  const std::vector<std::uint32_t>& further, Precision precision);
 
 }  // namespace interstice::dem

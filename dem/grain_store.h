@@ -25,6 +25,11 @@ struct alignas(16 * sizeof(Real) > 64 ? 32 : 64) PairRow {
 };
 static_assert(sizeof(PairRow<float>) == 64 && sizeof(PairRow<double>) == 96);
 
+/// In doubles, from one row to the next.
+constexpr std::uint32_t row_stride(Precision precision) {
+  return (precision == Precision::mixed ? sizeof(PairRow<float>) : sizeof(PairRow<double>)) / sizeof(double);
+}
+
 /// Between steps the present velocities; while steps follow each other, those half a step back.
 struct GrainMotion {
   Vec3d velocity;  // [m/s]

@@ -14,6 +14,11 @@ enum class Precision {
   mixed,   ///< positions, overlaps and motion in double; laws and forces in single
 };
 
+/// Bytes of a number in which forces are computed.
+constexpr std::size_t real_bytes(Precision precision) {
+  return precision == Precision::mixed ? sizeof(float) : sizeof(double);
+}
+
 /// Numbers in single or double, whichever the kernels use.
 class Reals {
  public:

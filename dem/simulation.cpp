@@ -216,7 +216,7 @@ SearchSpace Simulation::search_space() const {
 std::size_t Simulation::bytes() const {
   return grains_.bytes() + pair_contacts_.bytes() + wall_contacts_.bytes() +
          candidates_.capacity() * sizeof(PairRef) + reach_.capacity() * sizeof(float) +
-         path_left_.capacity() * sizeof(double) + built_ids_.capacity() * sizeof(std::uint32_t) +
+         path_left_.capacity() * sizeof(float) + built_ids_.capacity() * sizeof(std::uint32_t) +
          sleepers_.bytes() + quick_.bytes() + slow_.capacity() * sizeof(GroupPull) +
          energies_.capacity() * sizeof(GrainEnergy);
 }

@@ -138,9 +138,8 @@ class Simulation {
   void begin_group(PairRow<Real>* rows, std::size_t group, const GroupState& now, PassReport& report);
   void end_group(std::size_t group, const Vec3<Each>& velocity, const Vec3<Each>& spin,
                  const Pull& acceleration);
-  template <bool kSleep, class Real>
-  PassReport move_rows(PairRow<Real>* rows, const StepView& view, std::size_t begin, std::size_t end,
-                       bool begin_next);
+  template <bool kSleep, bool kBeginNext, class Real>
+  PassReport move_rows(PairRow<Real>* rows, const StepView& view, std::size_t begin, std::size_t end);
   void evaluate_and_move(bool begin_next);
   template <bool kSleep, class Real>
   void evaluate_and_move(PairRow<Real>* rows, bool begin_next);
@@ -149,9 +148,8 @@ class Simulation {
   void evaluate_and_move_rated(bool begin_next);
   template <class Real>
   void evaluate_and_move_rated(PairRow<Real>* rows, bool begin_next);
-  template <class Real>
-  PassReport move_rows_rated(PairRow<Real>* rows, const StepView& view, std::size_t begin, std::size_t end,
-                             bool begin_next);
+  template <bool kBeginNext, class Real>
+  PassReport move_rows_rated(PairRow<Real>* rows, const StepView& view, std::size_t begin, std::size_t end);
   template <class Real>
   void begin_group_rated(PairRow<Real>* rows, std::size_t group, const RatedState& now, PassReport& report);
   void finish_beats();
@@ -264,7 +262,7 @@ class Simulation {
   double attraction_ = 0;               // how far bodies attract each other [m]
   std::vector<PairRef> candidates_;     // whose long reaches meet
   std::vector<float> reach_;            // by slot: how far from where the list was built candidates last [m]
-  LargeVector<double> path_left_;       // by slot, up to whole groups: what is left of the short reaches [m]
+  LargeVector<float> path_left_;        // by slot, up to whole groups: what is left of the short reaches [m]
   bool strayed_ = false;                // a grain has used up its short reach
   double reach_of_walls_ = 0;           // the same for walls [m]
   std::vector<Shape> refreshed_walls_;  // as they stood when walls near grains were listed

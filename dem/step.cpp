@@ -18,7 +18,10 @@ inline void Simulation::begin_group(PairRow<Real>* rows, std::size_t group, cons
   const GroupStep moved = begin_motion(rows + first, grains_.motions()[group], now, dt_);
   look_at_moved(moved, group, filled, report);
   look_for_leavers(rows, moved, group, filled, report);
-  if (options_.energies) add_lifting(first, moved.step);
+  if (options_.energies) {
+    const Vec3<Each> step = moved.step;  // a copy: what is handed on by reference has to be in memory
+    add_lifting(first, step);
+  }
 }
 
 /// From present velocities and accelerations.
@@ -109,7 +112,8 @@ void Simulation::evaluate_and_move(PairRow<Real>* rows, bool begin_next) {
     } else {
       kernels_.walls(model_.laws, view, near, near_end);
     }
-    reports[b] = move_rows<kSleep>(rows, view, begin, end, begin_next);
+    reports[b] = begin_next ? move_rows<kSleep, true>(rows, view, begin, end)
+                            : move_rows<kSleep, false>(rows, view, begin, end);
   });
   if (begin_next) take_report(reports);
 }
@@ -118,21 +122,22 @@ void Simulation::evaluate_and_move(PairRow<Real>* rows, bool begin_next) {
 template <class Real>
 void Simulation::evaluate_scattered(const StepView& view, std::size_t begin, std::size_t end) {
   constexpr std::size_t at_once = 4;
-  const auto* const rows = static_cast<const PairRow<Real>*>(view.rows);
   for (std::size_t group = begin; group < end; group += at_once) {
     const std::size_t until = std::min(end, group + at_once);
-    const PairRef* const next = view.pairs.pairs + until * kLanes;
-    const PairRef* const next_end = view.pairs.pairs + std::min(end, until + at_once) * kLanes;
-    for (const PairRef* p = next; p < next_end; ++p) ask_for<false>(rows + p->a), ask_for<false>(rows + p->b);
+    const PairOffsets* const next = view.pairs.rows + until * kLanes;
+    const PairOffsets* const next_end = view.pairs.rows + std::min(end, until + at_once) * kLanes;
+    for (const PairOffsets* p = next; p < next_end; ++p)
+      for (const std::uint32_t row : {p->a, p->b})
+        ask_for<false>(simd::row_at<PairRow<Real>>(view.rows, row));
     kernels_.pairs(model_.laws, view, group, until, {});
   }
 }
 
-/// Collects the forces of some grains, completes their velocities, and begins the next step.
-template <bool kSleep, class Real>
+/// Collects the forces of some grains, completes their velocities, and begins the next step or keeps how they
+/// stand. (Known when it is compiled: what is kept goes through memory, and would in every step.)
+template <bool kSleep, bool kBeginNext, class Real>
 INTERSTICE_FLATTEN Simulation::PassReport Simulation::move_rows(PairRow<Real>* rows, const StepView& view,
-                                                                std::size_t begin, std::size_t end,
-                                                                bool begin_next) {
+                                                                std::size_t begin, std::size_t end) {
   PassReport report;
   const auto* const ends = static_cast<const Real*>(view.pairs.end_forces);
   const Vec3<Each> gravity = all_of(model_.gravity);
@@ -150,7 +155,7 @@ INTERSTICE_FLATTEN Simulation::PassReport Simulation::move_rows(PairRow<Real>* r
     now.velocity = half_step(load(m.vx, m.vy, m.vz), now.acceleration, 0.5 * dt_);
     now.spin = half_step(load(m.wx, m.wy, m.wz), now.angular, 0.5 * dt_);
     if constexpr (kSleep) judge_rest(rows, g, torque, now);
-    if (begin_next) {
+    if constexpr (kBeginNext) {
       begin_group(rows, g, now, report);
     } else {
       end_group(g, now.velocity, now.spin, {now.acceleration, now.angular});

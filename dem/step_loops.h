@@ -8,6 +8,7 @@
 #include <bit>
 
 #include "base/parallel.h"
+#include "dem/path_left.h"
 #include "dem/simulation.h"
 
 namespace interstice::dem {
@@ -118,9 +119,9 @@ inline void Simulation::look_at_moved(const GroupStep& moved, std::size_t group,
       lanes & ~(squared <= Each(kStepLimit) * (moved.radius * moved.radius)).bits();  // or no number
   if (broken != 0 && report.broken < 0)
     report.broken = grains_.labels()[first + static_cast<std::size_t>(std::countr_zero(broken))].id;
-  const Each left = Each::load(&path_left_[first]) - sqrt_of(squared);
+  const Lengths left = path_left_after(Lengths::load(&path_left_[first]), squared);
   left.store(&path_left_[first]);
-  report.strayed |= ((left < Each(0)).bits() & lanes) != 0;
+  report.strayed |= ((left < Lengths(0)).bits() & lanes) != 0;
 }
 
 /// Puts those in these lanes back that crossed a periodic face, and reports those that left.
@@ -128,10 +129,10 @@ template <class Real>
 inline void Simulation::look_for_leavers(PairRow<Real>* rows, const GroupStep& moved, std::size_t group,
                                          std::uint32_t lanes, PassReport& report) {
   const std::size_t first = group * kLanes;
-  const Vec3<Each> lo = all_of(model_.domain.lo), hi = all_of(model_.domain.hi);
+  const Vec3d &lo = model_.domain.lo, &hi = model_.domain.hi;
   const Vec3<Each>& p = moved.position;
-  const auto inside =
-      (p.x >= lo.x) & (p.x < hi.x) & (p.y >= lo.y) & (p.y < hi.y) & (p.z >= lo.z) & (p.z < hi.z);
+  const auto inside = (p.x >= Each(lo.x)) & (p.x < Each(hi.x)) & (p.y >= Each(lo.y)) & (p.y < Each(hi.y)) &
+                      (p.z >= Each(lo.z)) & (p.z < Each(hi.z));
   for (std::uint32_t out = lanes & ~inside.bits(); out != 0; out &= out - 1) {
     const std::size_t slot = first + static_cast<std::size_t>(std::countr_zero(out));
     report.left |= wrap_or_leave(rows[slot], grains_.labels()[slot]);

@@ -114,16 +114,19 @@ void Simulation::evaluate_and_move_rated(PairRow<Real>* rows, bool begin_next) {
     pair_contacts_.fetch_shared(b);
     kernels_.walls(model_.laws, view, wall_contacts_.first_group(b), wall_contacts_.first_quick(b));
     kernels_.walls(model_.laws, quick, wall_contacts_.first_quick(b), wall_contacts_.first_group(b + 1));
-    reports[b] = move_rows_rated(rows, view, sweep.parts.begin_row(b), sweep.parts.end_row(b), begin_next);
+    const std::size_t begin = sweep.parts.begin_row(b), end = sweep.parts.end_row(b);
+    reports[b] = begin_next ? move_rows_rated<true>(rows, view, begin, end)
+                            : move_rows_rated<false>(rows, view, begin, end);
   });
   if (begin_next) take_report(reports);
 }
 
-/// Collects all forces of some grains, completes their velocities, and begins the next step.
-template <class Real>
+/// Collects all forces of some grains, completes their velocities, and begins the next step or keeps how they
+/// stand.
+template <bool kBeginNext, class Real>
 INTERSTICE_FLATTEN Simulation::PassReport Simulation::move_rows_rated(PairRow<Real>* rows,
                                                                       const StepView& view, std::size_t begin,
-                                                                      std::size_t end, bool begin_next) {
+                                                                      std::size_t end) {
   PassReport report;
   const auto* const ends = static_cast<const Real*>(view.pairs.end_forces);
   for (std::size_t g = begin / kLanes; g < groups_for(end); ++g) {
@@ -140,7 +143,7 @@ INTERSTICE_FLATTEN Simulation::PassReport Simulation::move_rows_rated(PairRow<Re
     RatedState now{{}, {}, q.linear, q.angular, s.linear, s.angular};
     now.velocity = half_step(load(m.vx, m.vy, m.vz), multiply_add(beats, s.linear, q.linear), half);
     now.spin = half_step(load(m.wx, m.wy, m.wz), multiply_add(beats, s.angular, q.angular), half);
-    if (begin_next) {
+    if constexpr (kBeginNext) {
       begin_group_rated(rows, g, now, report);
     } else {
       end_group(g, now.velocity, now.spin, q);

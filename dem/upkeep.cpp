@@ -10,6 +10,7 @@
 
 #include "base/error.h"
 #include "base/parallel.h"
+#include "dem/path_left.h"
 #include "dem/simulation.h"
 #include "dem/site_order.h"
 
@@ -232,7 +233,7 @@ void Simulation::refresh(const std::vector<std::uint32_t>& old_slot, const std::
   const bool pushed = fastest_wall() > 0;
   for (std::size_t s = 0; s < sites.size(); ++s) {
     const double reach = std::min(near_reach(speed_of(s), pushed) + kept_back, candidate_reach_left(s));
-    path_left_[s] = reach - kept_back;
+    path_left_[s] = rounded_down(reach - kept_back);
     reaching[s].radius += reach;
   }
   const Blocks blocks{candidates_.size(), 4096};

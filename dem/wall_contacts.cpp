@@ -5,12 +5,13 @@
 
 #include "base/parallel.h"
 #include "dem/contacts.h"
+#include "dem/grain_store.h"
 #include "dem/wall_distance.h"
 
 namespace interstice::dem {
 
 WallContacts::WallContacts(const KeptMemories& kept, Precision precision, const Rates& rates)
-    : memories_(kept, precision), rates_(rates) {}
+    : precision_(precision), memories_(kept, precision), rates_(rates) {}
 
 void WallContacts::replace(const std::vector<GrainSite>& sites, const std::vector<GrainSite>& reaching,
                            const std::vector<Shape>& walls, double reach,
@@ -69,6 +70,8 @@ void WallContacts::place(const FoundByBlock& found, std::size_t slots) {
     place_list(found[b].slow, first_group_[b] * kLanes, first_quick_[b] * kLanes);
     place_list(found[b].quick, first_quick_[b] * kLanes, first_group_[b + 1] * kLanes);
   }
+  row_offsets_.resize(slots_.size());
+  for (std::size_t k = 0; k < slots_.size(); ++k) row_offsets_[k] = slots_[k] * row_stride(precision_);
 }
 
 void WallContacts::place_ends(const PairContacts& pairs) {
@@ -95,15 +98,17 @@ WallContact WallContacts::at(std::size_t k) const {
 
 WallView WallContacts::view() {
   const MemoryView m = memories_.view();
-  return {slots_.data(), walls_.data(), ends_.data(),
-          m.bits,        m.sliding,     m.rolling,
-          m.forces,      m.heat,        power_.empty() ? nullptr : power_.data()};
+  return {slots_.data(), row_offsets_.data(),
+          walls_.data(), ends_.data(),
+          m.bits,        m.sliding,
+          m.rolling,     m.forces,
+          m.heat,        power_.empty() ? nullptr : power_.data()};
 }
 
 std::size_t WallContacts::bytes() const {
   const auto of = [](const auto& v) { return v.capacity() * sizeof(v[0]); };
-  return memories_.bytes() + of(slots_) + of(walls_) + of(ends_) + of(power_) + of(first_group_) +
-         of(first_quick_) + of(first_) + of(place_);
+  return memories_.bytes() + of(slots_) + of(row_offsets_) + of(walls_) + of(ends_) + of(power_) +
+         of(first_group_) + of(first_quick_) + of(first_) + of(place_);
 }
 
 }  // namespace interstice::dem

@@ -33,8 +33,9 @@ struct WallContact {
 /// What the kernels see of contacts with walls, by group and lane: springs and forces as in PairView.
 struct WallView {
   const std::uint32_t* slots;
+  const std::uint32_t* rows;  // where the grains' rows begin, in doubles from the first
   const std::uint32_t* walls;
-  const std::uint32_t* ends;
+  const std::uint32_t* ends;  // as EndRing::of_pair
   GroupBits* bits;
   void* sliding;
   void* rolling;
@@ -90,9 +91,10 @@ class WallContacts {
 
   void place(const FoundByBlock& found, std::size_t slots);
 
+  Precision precision_;
   ContactMemories memories_;
   Rates rates_;
-  std::vector<std::uint32_t> slots_, walls_, ends_;  // by place
+  std::vector<std::uint32_t> slots_, row_offsets_, walls_, ends_;  // by place
   std::vector<double> power_;
   std::vector<std::uint32_t> first_group_{0};  // by block
   std::vector<std::uint32_t> first_quick_;     // the same

@@ -1,6 +1,9 @@
 // How the grains of a group of pairs stand to each other.
 #pragma once
 
+#include <algorithm>
+#include <limits>
+
 #include "dem/kernels/kernels.h"
 #include "dem/simd/pack.h"
 
@@ -17,17 +20,19 @@ using RealOf = typename ScalarOf<P>::type;
 /// A double a pair.
 using Doubles = simd::Pack<double, kLanes>;
 
-/// Lengths of the domain's periodic axes and their inverses [m, 1/m].
+/// Lengths of the domain's periodic axes and their inverses [m, 1/m], 0 along others.
 struct Periods {
-  bool wraps[3];
-  Vec3<Doubles> length, inverse;
+  Vec3d length, inverse;
+  Doubles farthest;  // squared distance up to which no pair is nearer through a periodic face [m^2]
 
-  explicit Periods(const Vec3d& period) {
+  explicit Periods(const Vec3d& period) : length(period), inverse(0, 0, 0) {
+    double shortest = std::numeric_limits<double>::infinity();
     for (int axis = 0; axis < 3; ++axis) {
-      wraps[axis] = period[axis] > 0;
-      length[axis] = Doubles(period[axis]);
-      inverse[axis] = Doubles(wraps[axis] ? 1 / period[axis] : 0);
+      if (period[axis] == 0) continue;
+      inverse[axis] = 1 / period[axis];
+      shortest = std::min(shortest, period[axis]);
     }
+    farthest = Doubles(0.25 * shortest * shortest);
   }
 };
 
@@ -43,14 +48,13 @@ struct PairSites {
 template <class P>
 PairSites<P> pair_sites(Vec3<Doubles> apart, const Doubles& reach, const Periods& periods) {
   using Real = RealOf<P>;
-  for (int axis = 0; axis < 3; ++axis) {
-    if (!periods.wraps[axis]) continue;
-    apart[axis] =
-        multiply_add(-rounded(apart[axis] * periods.inverse[axis]), periods.length[axis], apart[axis]);
-  }
   Doubles squared = dot(apart, apart);
-  const auto distinct = squared > Doubles(0);
-  if (distinct.bits() != kAllLanes) [[unlikely]] {  // a fixed direction
+  if (((squared > Doubles(0)) & (squared <= periods.farthest)).bits() != kAllLanes) [[unlikely]] {
+    for (int axis = 0; axis < 3; ++axis)
+      apart[axis] = multiply_add(-rounded(apart[axis] * Doubles(periods.inverse[axis])),
+                                 Doubles(periods.length[axis]), apart[axis]);
+    squared = dot(apart, apart);
+    const auto distinct = squared > Doubles(0);  // else a fixed direction
     apart.x = select(distinct, apart.x, Doubles(1e-6) * reach);
     squared = select(distinct, squared, square(apart.x));
   }

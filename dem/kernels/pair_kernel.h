@@ -9,22 +9,33 @@
 
 namespace interstice::dem {
 
+/// The forces of a group of pairs from their first ends: out of the way of the steps that keep none.
+template <class Real>
+[[gnu::noinline]] void keep_forces(const PairView& pairs, std::size_t group) {
+  for (std::size_t k = group * kLanes; k < (group + 1) * kLanes; ++k) {
+    const Real* const force = simd::row_at<Real>(pairs.end_forces, pairs.ends[k].a);
+    for (int axis = 0; axis < 3; ++axis) static_cast<Real*>(pairs.forces)[axis_index(k, axis)] = force[axis];
+  }
+}
+
 /// A pair's force and torques, to each of its ends.
 template <class P>
-void store_ends(const PairEnds* ends, const Vec3<P>& force, const Vec3<P>& torque_a, const Vec3<P>& torque_b,
-                void* end_forces) {
+void store_ends(const StepView& v, std::size_t group, const Vec3<P>& force, const Vec3<P>& torque_a,
+                const Vec3<P>& torque_b) {
   using Real = RealOf<P>;
   using Quads = simd::Quads<Real, kLanes>;
-  const simd::RowOffsets<2 * kLanes> offsets(ends, kEndReals * sizeof(Real) / sizeof(double));
+  const PairEnds* const ends = v.pairs.ends + group * kLanes;
   const P zero(0);
   const Quads across(force.x, force.y, force.z, zero);
   const simd::OctStorer<Real, kLanes> to_a(across, Quads(torque_a.x, torque_a.y, torque_a.z, zero)),
       to_b(-across, Quads(torque_b.x, torque_b.y, torque_b.z, zero));
   simd::unrolled<kLanes>([&](auto lane) {
     constexpr int i = decltype(lane)::value;
-    to_a.template store<i>(offsets.template at<Real>(2 * i, end_forces));
-    to_b.template store<i>(offsets.template at<Real>(2 * i + 1, end_forces));
+    to_a.template store<i>(simd::row_at<Real>(v.pairs.end_forces, ends[i].a));
+    to_b.template store<i>(simd::row_at<Real>(v.pairs.end_forces, ends[i].b));
   });
+  if (v.pairs.forces) [[unlikely]]
+    keep_forces<Real>(v.pairs, group);
 }
 
 /// How the surfaces of a group's grains move against each other.
@@ -64,11 +75,9 @@ struct CommonInputs {
 /// No force in a group of pairs.
 template <class P>
 void leave_apart(const StepView& v, std::size_t group) {
-  const std::size_t first = group * kLanes;
   const Vec3<P> none{P(0), P(0), P(0)};
-  store_ends(v.pairs.ends + first, none, none, none, v.pairs.end_forces);
-  if (v.pairs.forces) store_columns(none, static_cast<RealOf<P>*>(v.pairs.forces) + axis_index(first, 0));
-  if (v.pairs.heat) std::fill_n(v.pairs.heat + first, kLanes, PairHeat{});
+  store_ends(v, group, none, none, none);
+  if (v.pairs.heat) std::fill_n(v.pairs.heat + group * kLanes, kLanes, PairHeat{});
 }
 
 template <bool one_material, class L, class P>
@@ -79,7 +88,7 @@ void evaluate_group(const L& laws, const StepView& v, const CommonInputs<P>& com
   const std::size_t first = group * kLanes;
   GroupBits& bits = v.pairs.bits[group];
   const PairRef* pairs = v.pairs.pairs + first;
-  const PairRows<P> rows = load_pair_rows<P>(v, pairs);
+  const PairRows<P> rows = load_pair_rows<P>(v, group);
   const GrainRows<P>&a = rows.a, &b = rows.b;
   const PairGeometry<P> g = pair_geometry(sites, a.radius + b.radius);
   const PairConstants<P> c =
@@ -117,8 +126,7 @@ void evaluate_group(const L& laws, const StepView& v, const CommonInputs<P>& com
     force = select(touching, force, across);
     torque_a = select(touching, torque_a, none), torque_b = select(touching, torque_b, none);
   }
-  store_ends(v.pairs.ends + first, force, torque_a, torque_b, v.pairs.end_forces);
-  if (v.pairs.forces) store_columns(force, static_cast<Real*>(v.pairs.forces) + axis_index(first, 0));
+  store_ends(v, group, force, torque_a, torque_b);
   if constexpr (kCountsHeat<L>) {
     const P torn = s.torn != 0 ? tear_heat(c, effective_radius) : P(0);
     if (v.pairs.heat) store_heat(s, f, memory, torn, v.pairs.heat + first);
@@ -153,7 +161,7 @@ void evaluate_range(const L& laws, const StepView& v, const CommonInputs<P>& com
   LittleByLittle asked(ahead, end - begin);
   for (std::size_t group = begin; group < end; ++group) {
     asked.ask();
-    const PairSites<P> sites = load_pair_sites<P>(v, common.periods, v.pairs.pairs + group * kLanes);
+    const PairSites<P> sites = load_pair_sites<P>(v, common.periods, group);
     if (stay_apart(laws, v.pairs.bits[group], sites.excess)) {
       leave_apart<P>(v, group);
     } else {

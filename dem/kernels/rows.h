@@ -30,15 +30,14 @@ GrainRows<P> grain_rows(const RowLoader<P>& loader) {
 /// What the laws read of a group of pairs, in two parts: the places are needed of all groups, the rest where
 /// grains touch. Each part finds the rows by itself: to keep their addresses costs more.
 template <class P>
-PairSites<P> load_pair_sites(const StepView& v, const Periods& periods, const PairRef* pairs) {
+PairSites<P> load_pair_sites(const StepView& v, const Periods& periods, std::size_t group) {
   using Row = PairRow<RealOf<P>>;
-  const simd::RowOffsets<2 * kLanes> offsets(pairs, sizeof(Row) / sizeof(double));
+  const PairOffsets* const pairs = v.pairs.rows + group * kLanes;
   simd::QuadLoader<kLanes> apart;
   simd::unrolled<kLanes>([&](auto lane) {
     constexpr int i = decltype(lane)::value;
-    const Row &a = *offsets.template at<Row>(2 * i, v.rows),
-              &b = *offsets.template at<Row>(2 * i + 1, v.rows);
-    apart.template load_difference<i>(&a.x, &b.x);
+    apart.template load_difference<i>(&simd::row_at<Row>(v.rows, pairs[i].a)->x,
+                                      &simd::row_at<Row>(v.rows, pairs[i].b)->x);
   });
   const auto c = apart.columns();
   return pair_sites<P>(Vec3<Doubles>{c[0], c[1], c[2]}, c[3], periods);
@@ -50,14 +49,14 @@ struct PairRows {
 };
 
 template <class P>
-PairRows<P> load_pair_rows(const StepView& v, const PairRef* pairs) {
+PairRows<P> load_pair_rows(const StepView& v, std::size_t group) {
   using Row = PairRow<RealOf<P>>;
-  const simd::RowOffsets<2 * kLanes> offsets(pairs, sizeof(Row) / sizeof(double));
+  const PairOffsets* const pairs = v.pairs.rows + group * kLanes;
   RowLoader<P> of_a, of_b;
   simd::unrolled<kLanes>([&](auto lane) {
     constexpr int i = decltype(lane)::value;
-    of_a.template load<i>(&offsets.template at<Row>(2 * i, v.rows)->vx);
-    of_b.template load<i>(&offsets.template at<Row>(2 * i + 1, v.rows)->vx);
+    of_a.template load<i>(&simd::row_at<Row>(v.rows, pairs[i].a)->vx);
+    of_b.template load<i>(&simd::row_at<Row>(v.rows, pairs[i].b)->vx);
   });
   return {grain_rows<P>(of_a), grain_rows<P>(of_b)};
 }

@@ -52,12 +52,11 @@ void store_wall_ends(const std::uint32_t* ends, const Vec3<P>& force, const Vec3
                      void* end_forces) {
   using Real = RealOf<P>;
   using Quads = simd::Quads<Real, kLanes>;
-  const simd::RowOffsets<kLanes> offsets(ends, kEndReals * sizeof(Real) / sizeof(double));
   const simd::OctStorer<Real, kLanes> to(Quads(force.x, force.y, force.z, P(0)),
                                          Quads(torque.x, torque.y, torque.z, P(0)));
   simd::unrolled<kLanes>([&](auto lane) {
     constexpr int i = decltype(lane)::value;
-    to.template store<i>(offsets.template at<Real>(i, end_forces));
+    to.template store<i>(simd::row_at<Real>(end_forces, ends[i]));
   });
 }
 
@@ -99,10 +98,9 @@ void evaluate_wall_group(const L& laws, const StepView& v, std::size_t group) {
   GroupBits& bits = w.bits[group];
   simd::QuadLoader<kLanes> places;
   RowLoader<P> rows;
-  const simd::RowOffsets<kLanes> offsets(w.slots + first, sizeof(PairRow<Real>) / sizeof(double));
   simd::unrolled<kLanes>([&](auto lane) {
     constexpr int i = decltype(lane)::value;
-    const auto& row = *offsets.template at<PairRow<Real>>(i, v.rows);
+    const auto& row = *simd::row_at<PairRow<Real>>(v.rows, w.rows[first + i]);
     places.template load<i>(&row.x);
     rows.template load<i>(&row.vx);
   });

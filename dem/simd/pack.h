@@ -114,7 +114,7 @@ struct Pack<T, N, true> {
   Pack() : lanes{} {}
   Pack(Lanes l) : lanes(l) {}
   template <class U>
-  requires std::is_arithmetic_v<U> Pack(U all) : lanes(Lanes{} + static_cast<T>(all)) {}
+  requires std::is_arithmetic_v<U> Pack(U all) : lanes(static_cast<T>(all) - Lanes{}) {}
 
   static Pack load(const T* from) {
     Pack p;

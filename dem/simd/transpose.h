@@ -46,35 +46,15 @@ void unrolled(const Body& body) {
   (std::make_integer_sequence<int, n>{});
 }
 
-/// Where N rows begin, in doubles from the first row: an index that the processor scales by itself.
-template <int N>
-class RowOffsets {
- public:
-  /// `indices`: N whole numbers of 32 bits; `doubles`: in a row.
-  RowOffsets(const void* indices, std::uint32_t doubles) {
-    typedef std::uint32_t Many __attribute__((vector_size(32)));  // from wider stores some loads wait
-    for (std::size_t byte = 0; byte < sizeof(at_); byte += sizeof(Many)) {
-      Many many;
-      __builtin_memcpy(&many, static_cast<const char*>(indices) + byte, sizeof(Many));
-      many *= doubles;
-      __builtin_memcpy(reinterpret_cast<char*>(at_) + byte, &many, sizeof(Many));
-    }
-    // In memory each is an operand; taken out of the register, as the compiler would, it costs two
-    // instructions.
-    asm("" : "+m"(at_));
-  }
-  template <class Row>
-  const Row* at(int i, const void* first) const {
-    return reinterpret_cast<const Row*>(static_cast<const double*>(first) + at_[i]);
-  }
-  template <class Row>
-  Row* at(int i, void* first) const {
-    return reinterpret_cast<Row*>(static_cast<double*>(first) + at_[i]);
-  }
-
- private:
-  alignas(64) std::uint32_t at_[N];
-};
+/// The row that begins `offset` doubles after the first.
+template <class Row>
+const Row* row_at(const void* first, std::uint32_t offset) {
+  return reinterpret_cast<const Row*>(static_cast<const double*>(first) + offset);
+}
+template <class Row>
+Row* row_at(void* first, std::uint32_t offset) {
+  return reinterpret_cast<Row*>(static_cast<double*>(first) + offset);
+}
 
 #if defined(__AVX__)
 namespace detail {
@@ -260,8 +240,13 @@ class QuadLoader {
   /// Three differences a - b and one sum.
   template <int row>
   void load_difference(const double* a, const double* b) {
+#if defined(__FMA__)
+    const __m256d signs = _mm256_setr_pd(-1, -1, -1, 1);
+    rows_.template set<row>(_mm256_fmadd_pd(_mm256_loadu_pd(b), signs, _mm256_loadu_pd(a)));
+#else
     const __m256d signs = _mm256_setr_pd(-0.0, -0.0, -0.0, 0.0);
     rows_.template set<row>(_mm256_add_pd(_mm256_xor_pd(_mm256_loadu_pd(b), signs), _mm256_loadu_pd(a)));
+#endif
   }
   std::array<P, 4> columns() const { return rows_.columns(); }
 
@@ -447,7 +432,7 @@ class OctStorer<float, N> {
   }
   template <int row>
   void store(float* to) const {
-    _mm256_storeu_ps(to, _mm256_castpd_ps(rows_.template get<row>()));
+    _mm256_storeu_pd(reinterpret_cast<double*>(to), rows_.template get<row>());
   }
 
  private:
