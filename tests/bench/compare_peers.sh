@@ -3,7 +3,8 @@
 # and the same time step. Prints the tables of docs/PERFORMANCE.md: medians (lowest-highest) of all blocks, and ratios of medians.
 #   compare_peers.sh INTERSTICE [ROUNDS [PART...]]
 #   PART: bed-35k, bed-materials (of two, mixed), bed-200k, bed-1m (LIGGGHTS on settled beds), lammps, yade (on 35,000 equal grains), spreading (LIGGGHTS, whole runs);
-#   all of them unless some are named. A code that is missing costs its part only; Debian packages: liggghts, lammps, yade.
+#   all of them unless some are named. Codes that are missing are installed (Debian's packages, as root or with sudo); one that cannot be
+#   costs its part only.
 #   Environment: STEPS in a block of 35,000 grains (40; half as many of the larger beds), SHARE: 20 for a 20th of the spreading run.
 set -eu
 command=$(realpath "$1")
@@ -18,9 +19,11 @@ trap 'rm -r "$work"' EXIT
 cd "$work"
 cp "$here"/* .
 . ./numbers.sh
+. ./install.sh
 . ./beds.sh
 . ./spreading.sh
 
+install_peers $parts
 grep -m1 'model name' /proc/cpuinfo | sed 's/.*: //'
 "$command" --version | head -1
 dpkg-query -W -f '${Package} ${Version}\n' liggghts lammps yade 2> /dev/null || true

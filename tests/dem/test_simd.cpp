@@ -35,8 +35,8 @@ double ulps(Real value, long double exact) {
   return static_cast<double>(std::fabs(static_cast<long double>(value) - exact) / (next - at));
 }
 
-/// Newton's rule ends within a unit and a half of the last place: its last addition rounds by half a unit,
-/// the correction added is itself off by less than one.
+/// The last addition rounds by half a unit of the last place; what is added is itself off by less than one:
+/// what the series leaves out is half a unit at most (35/128 of 2^-52), what it goes by is rounded once.
 TYPED_TEST(Packs, InversesAndRootsAreExactToTheLastPlace) {
   using Real = TypeParam;
   using P = Pack<Real, 16>;

@@ -2,7 +2,6 @@
 spread() { sort -g "$1" | awk '{ v[NR] = $1 } END { if (NR) printf "%.3g (%.3g-%.3g)", v[int((NR + 1) / 2)], v[1], v[NR]; else printf "failed" }'; }
 median() { sort -g "$1" | awk '{ v[NR] = $1 } END { print NR ? v[int((NR + 1) / 2)] : 0 }'; }
 ratio() { awk -v a="$(median "$1")" -v b="$(median "$2")" 'BEGIN { if (a > 0 && b > 0) printf "%.2f", a / b; else printf "-" }'; }
-needs() { command -v "$1" > /dev/null || { echo "$1 is not installed" >&2; return 1; }; }
 
 # processes, command: with as many processes of MPI
 parallel() {
