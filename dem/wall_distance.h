@@ -47,11 +47,14 @@ WallDistance<T> wall_distance(const Box& box, const Vec3<T>& p) {
   const Vec3<T> nearest{min_of(max_of(p.x, lo.x), hi.x), min_of(max_of(p.y, lo.y), hi.y),
                         min_of(max_of(p.z, lo.z), hi.z)};
   const Vec3<T> away = p - nearest;
-  const T d2 = dot(away, away), d = sqrt_of(d2);
+  const T squared = dot(away, away), inverse = inverse_root_of(squared);
+  const WallDistance<T> from_outside{squared * inverse, inverse * away};
+  const auto outside = squared > T(0);
+  if (everywhere(outside)) [[likely]]
+    return from_outside;
   const WallDistance<T> inside = distance_from_inside(lo, hi, p);
-  const auto outside = d2 > T(0);
-  const Vec3<T> normal = (T(1) / d) * away;
-  return {select(outside, d, inside.distance), select(outside, normal, inside.normal)};
+  return {select(outside, from_outside.distance, inside.distance),
+          select(outside, from_outside.normal, inside.normal)};
 }
 
 template <class T>

@@ -16,6 +16,8 @@ template <class Condition, class T>
 INTERSTICE_HD inline Vec3<T> select(const Condition& condition, const Vec3<T>& yes, const Vec3<T>& no) {
   return {select(condition, yes.x, no.x), select(condition, yes.y, no.y), select(condition, yes.z, no.z)};
 }
+/// Does a condition hold, in all lanes where there are several?
+INTERSTICE_HD inline bool everywhere(bool condition) { return condition; }
 INTERSTICE_HD inline double max_of(double a, double b) { return a > b ? a : b; }
 INTERSTICE_HD inline double min_of(double a, double b) { return a < b ? a : b; }
 INTERSTICE_HD inline double abs_of(double a) { return std::fabs(a); }

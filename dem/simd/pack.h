@@ -336,6 +336,10 @@ struct Pack<T, N, false> {
 };
 
 template <class T, int N>
+bool everywhere(const Mask<T, N>& condition) {
+  return condition.bits() == (1u << N) - 1;
+}
+template <class T, int N>
 Pack<T, N>& operator+=(Pack<T, N>& a, const Pack<T, N>& b) {
   return a = a + b;
 }
