@@ -15,12 +15,17 @@
 #include "coupling/stream/field_memory.h"
 #include "coupling/stream/schedule.h"
 #include "coupling/stream/step_choice.h"
+#include "dem/simd/pack.h"
 
 namespace interstice::apps {
 namespace {
 
-// Measured on a settled bed (docs/PERFORMANCE.md): rows, lists, springs and results; and one core's rate.
-constexpr double kBytesPerGrain = 600, kParticleStepsPerSecondPerCore = 8e6;
+// Measured on settled beds in double (docs/PERFORMANCE.md), the slowest of them: rows, lists, springs and
+// results; and one core's rate by the registers that this program is built for.
+constexpr double kBytesPerGrain = 600;
+constexpr double kParticleStepsPerSecondPerCore = dem::simd::kNativeBytes == 64   ? 15e6
+                                                  : dem::simd::kNativeBytes == 32 ? 8e6
+                                                                                  : 4e6;
 
 struct CheckArguments {
   std::string scene;
