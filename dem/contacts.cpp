@@ -8,6 +8,8 @@
 namespace interstice::dem {
 namespace {
 constexpr std::size_t kSlotsPerBlock = 2048;
+/// Lists and springs longer than this leave the caches from step to step.
+constexpr std::size_t kBytesInCaches = std::size_t{8} << 20;
 constexpr std::size_t kGroupsPerBlock = 256;
 
 template <class Vector>
@@ -97,7 +99,10 @@ void PairContacts::replace(const std::vector<PairRef>& found, const PairClasses&
 
 PairView PairContacts::view() {
   const MemoryView m = memories_.view();
+  const std::size_t bytes =
+      pairs_.size() * (sizeof(PairOffsets) + sizeof(PairEnds) + 4 * real_bytes(precision_));
   return {memories_.groups(),
+          bytes > kBytesInCaches,
           pairs_.data(),
           row_offsets_.data(),
           ring_.of_pair.data(),

@@ -35,6 +35,7 @@ struct PairOffsets {
 /// the kernels' number type; null where not kept.
 struct PairView {
   std::size_t groups;
+  bool beyond_caches;  // lists and springs are so long that they come from memory every step
   const PairRef* pairs;
   const PairOffsets* rows;
   const PairEnds* ends;

@@ -9,6 +9,9 @@
 
 namespace interstice::dem {
 
+/// The motion of a group this far ahead is asked for: memory takes longer than one group to move.
+inline constexpr std::size_t kGroupsAhead = 4;
+
 /// Begins the step of a group of grains.
 template <class Real>
 inline void Simulation::begin_group(PairRow<Real>* rows, std::size_t group, const GroupState& now,
@@ -148,7 +151,7 @@ INTERSTICE_FLATTEN Simulation::PassReport Simulation::move_rows(PairRow<Real>* r
                      torque = simd::converted<double>(sums.torque);
     if (options_.energies) add_heat(g);
     GroupMotion& m = grains_.motions()[g];
-    ask_for(&m + 1);
+    ask_for(&m + kGroupsAhead);
     GroupState now;
     now.acceleration = multiply_add(Each::load(m.inverse_mass), force, gravity);
     now.angular = Each::load(m.inverse_inertia) * torque;

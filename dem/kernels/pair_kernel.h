@@ -155,12 +155,28 @@ class LittleByLittle {
   std::size_t piece_;
 };
 
+/// Asks for what is listed of a later group, and its springs.
+template <class Real, class L>
+[[gnu::always_inline]] inline void ask_for_lists(const L& laws, const PairView& pairs, std::size_t group) {
+  constexpr std::size_t ahead = 8;  // 4 to 32 serve alike
+  const std::size_t first = std::min(group + ahead, pairs.groups - 1) * kLanes,
+                    spring = spring_index(first, 0);
+  ask_for<false>(pairs.rows + first, kLanes);
+  ask_for<false>(pairs.ends + first, kLanes);
+  if (laws.tangential == TangentialLaw::mindlin)
+    ask_for(static_cast<const Real*>(pairs.sliding) + spring, kSpringReals * kLanes);
+  if (laws.rolling == RollingLaw::epsd2)
+    ask_for(static_cast<const Real*>(pairs.rolling) + spring, kSpringReals * kLanes);
+}
+
 template <bool one_material, class L, class P>
 void evaluate_range(const L& laws, const StepView& v, const CommonInputs<P>& common, std::size_t begin,
                     std::size_t end, const MemoryAhead& ahead) {
+  using Real = RealOf<P>;
   LittleByLittle asked(ahead, end - begin);
   for (std::size_t group = begin; group < end; ++group) {
     asked.ask();
+    if (v.pairs.beyond_caches) ask_for_lists<Real>(laws, v.pairs, group);
     const PairSites<P> sites = load_pair_sites<P>(v, common.periods, group);
     if (stay_apart(laws, v.pairs.bits[group], sites.excess)) {
       leave_apart<P>(v, group);
