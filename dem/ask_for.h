@@ -10,15 +10,15 @@ inline constexpr std::size_t kCacheLine = 64;
 // Always inline: gcc 12 takes a function that does nothing but ask for one without effect, and leaves calls
 // of it out.
 
-/// Asks for the cache lines of [begin, end) to come to the second cache, to be read or `written`, too.
-template <bool written = true>
+/// Asks for the cache lines of [begin, end) to come to the second cache. (To be read, also where they are
+/// written later: what asks to write may bring them to the first cache, which holds too little.)
 [[gnu::always_inline]] inline void ask_for(const char* begin, const char* end) {
-  for (const char* line = begin; line < end; line += kCacheLine) __builtin_prefetch(line, written, 2);
+  for (const char* line = begin; line < end; line += kCacheLine) __builtin_prefetch(line, 0, 2);
 }
 /// The same of n objects.
-template <bool written = true, class T>
+template <class T>
 [[gnu::always_inline]] inline void ask_for(const T* object, std::size_t n = 1) {
-  ask_for<written>(reinterpret_cast<const char*>(object), reinterpret_cast<const char*>(object + n));
+  ask_for(reinterpret_cast<const char*>(object), reinterpret_cast<const char*>(object + n));
 }
 
 }  // namespace interstice::dem

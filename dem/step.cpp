@@ -130,8 +130,7 @@ void Simulation::evaluate_scattered(const StepView& view, std::size_t begin, std
     const PairOffsets* const next = view.pairs.rows + until * kLanes;
     const PairOffsets* const next_end = view.pairs.rows + std::min(end, until + at_once) * kLanes;
     for (const PairOffsets* p = next; p < next_end; ++p)
-      for (const std::uint32_t row : {p->a, p->b})
-        ask_for<false>(simd::row_at<PairRow<Real>>(view.rows, row));
+      for (const std::uint32_t row : {p->a, p->b}) ask_for(simd::row_at<PairRow<Real>>(view.rows, row));
     kernels_.pairs(model_.laws, view, group, until, {});
   }
 }

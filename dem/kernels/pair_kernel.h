@@ -161,8 +161,8 @@ template <class Real, class L>
   constexpr std::size_t ahead = 8;  // 4 to 32 serve alike
   const std::size_t first = std::min(group + ahead, pairs.groups - 1) * kLanes,
                     spring = spring_index(first, 0);
-  ask_for<false>(pairs.rows + first, kLanes);
-  ask_for<false>(pairs.ends + first, kLanes);
+  ask_for(pairs.rows + first, kLanes);
+  ask_for(pairs.ends + first, kLanes);
   if (laws.tangential == TangentialLaw::mindlin)
     ask_for(static_cast<const Real*>(pairs.sliding) + spring, kSpringReals * kLanes);
   if (laws.rolling == RollingLaw::epsd2)
