@@ -103,6 +103,7 @@ PairView PairContacts::view() {
       pairs_.size() * (sizeof(PairOffsets) + sizeof(PairEnds) + 4 * real_bytes(precision_));
   return {memories_.groups(),
           bytes > kBytesInCaches,
+          false,
           pairs_.data(),
           row_offsets_.data(),
           ring_.of_pair.data(),
@@ -116,6 +117,7 @@ PairView PairContacts::view() {
 
 PairView PairContacts::shared_view() {
   PairView v = view();
+  v.scattered = true;
   v.end_forces = kept_forces_.data();
   return v;
 }

@@ -36,6 +36,7 @@ struct PairOffsets {
 struct PairView {
   std::size_t groups;
   bool beyond_caches;  // lists and springs are so long that they come from memory every step
+  bool scattered;      // rows of one group are not near those of the group before
   const PairRef* pairs;
   const PairOffsets* rows;
   const PairEnds* ends;

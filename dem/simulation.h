@@ -191,8 +191,6 @@ class Simulation {
   void count_inserted_contacts();
   double inserted_on_wall(const GrainRow& grain, const WallContact& contact) const;
   template <class Real>
-  void evaluate_scattered(const StepView& view, std::size_t begin, std::size_t end);
-  template <class Real>
   MemoryAhead rows_ahead(const PairRow<Real>* rows, std::size_t block, bool last) const;
   void add_lifting(std::size_t first, const Vec3<Each>& step);
   void add_heat(std::size_t group);

@@ -95,7 +95,7 @@ void Simulation::evaluate_and_move(PairRow<Real>* rows, bool begin_next) {
   std::vector<PassReport> reports(sweep.parts.blocks());
   for_blocks({sweep.shared_groups, kGroupsPerTask}, [&](std::size_t, std::size_t begin, std::size_t end) {
     if constexpr (kSleep) return evaluate_needed<Real>(shared, begin, end, {});
-    evaluate_scattered<Real>(shared, begin, end);
+    kernels_.pairs(model_.laws, shared, begin, end, {});
   });
   if (options_.energies) count_inserted_contacts();
 
@@ -119,20 +119,6 @@ void Simulation::evaluate_and_move(PairRow<Real>* rows, bool begin_next) {
                             : move_rows<kSleep, false>(rows, view, begin, end);
   });
   if (begin_next) take_report(reports);
-}
-
-/// Evaluates groups of pairs whose rows lie anywhere, asking for those of the next groups meanwhile.
-template <class Real>
-void Simulation::evaluate_scattered(const StepView& view, std::size_t begin, std::size_t end) {
-  constexpr std::size_t at_once = 4;
-  for (std::size_t group = begin; group < end; group += at_once) {
-    const std::size_t until = std::min(end, group + at_once);
-    const PairOffsets* const next = view.pairs.rows + until * kLanes;
-    const PairOffsets* const next_end = view.pairs.rows + std::min(end, until + at_once) * kLanes;
-    for (const PairOffsets* p = next; p < next_end; ++p)
-      for (const std::uint32_t row : {p->a, p->b}) ask_for(simd::row_at<PairRow<Real>>(view.rows, row));
-    kernels_.pairs(model_.laws, view, group, until, {});
-  }
 }
 
 /// Collects the forces of some grains, completes their velocities, and begins the next step or keeps how they

@@ -155,6 +155,16 @@ class LittleByLittle {
   std::size_t piece_;
 };
 
+/// Asks for the rows of a later group.
+template <class Real>
+[[gnu::always_inline]] inline void ask_for_rows(const StepView& v, std::size_t group) {
+  constexpr std::size_t ahead = 3;
+  const PairOffsets* const pairs = v.pairs.rows + std::min(group + ahead, v.pairs.groups - 1) * kLanes;
+  for (std::size_t lane = 0; lane < kLanes; ++lane)
+    for (const std::uint32_t row : {pairs[lane].a, pairs[lane].b})
+      ask_for(simd::row_at<PairRow<Real>>(v.rows, row));
+}
+
 /// Asks for what is listed of a later group, and its springs.
 template <class Real, class L>
 [[gnu::always_inline]] inline void ask_for_lists(const L& laws, const PairView& pairs, std::size_t group) {
@@ -176,6 +186,7 @@ void evaluate_range(const L& laws, const StepView& v, const CommonInputs<P>& com
   LittleByLittle asked(ahead, end - begin);
   for (std::size_t group = begin; group < end; ++group) {
     asked.ask();
+    if (v.pairs.scattered) ask_for_rows<Real>(v, group);
     if (v.pairs.beyond_caches) ask_for_lists<Real>(laws, v.pairs, group);
     const PairSites<P> sites = load_pair_sites<P>(v, common.periods, group);
     if (stay_apart(laws, v.pairs.bits[group], sites.excess)) {
