@@ -4,6 +4,7 @@
 
 #include "base/parallel.h"
 #include "dem/grain_store.h"
+#include "dem/springs.h"
 
 namespace interstice::dem {
 namespace {
@@ -100,19 +101,10 @@ void PairContacts::replace(const std::vector<PairRef>& found, const PairClasses&
 PairView PairContacts::view() {
   const MemoryView m = memories_.view();
   const std::size_t bytes =
-      pairs_.size() * (sizeof(PairOffsets) + sizeof(PairEnds) + 4 * real_bytes(precision_));
-  return {memories_.groups(),
-          bytes > kBytesInCaches,
-          false,
-          pairs_.data(),
-          row_offsets_.data(),
-          ring_.of_pair.data(),
-          m.bits,
-          m.sliding,
-          m.rolling,
-          ring_forces_.data(),
-          m.forces,
-          m.heat};
+      pairs_.size() * (sizeof(PairOffsets) + sizeof(PairEnds) + kSpringReals * real_bytes(precision_));
+  return {memories_.groups(),  bytes > kBytesInCaches, false,    pairs_.data(),
+          row_offsets_.data(), ring_.of_pair.data(),   m.bits,   m.sliding,
+          m.rolling,           ring_forces_.data(),    m.forces, m.heat};
 }
 
 PairView PairContacts::shared_view() {

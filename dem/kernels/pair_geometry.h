@@ -49,7 +49,7 @@ template <class P>
 PairSites<P> pair_sites(Vec3<Doubles> apart, const Doubles& reach, const Periods& periods) {
   using Real = RealOf<P>;
   Doubles squared = dot(apart, apart);
-  if (((squared > Doubles(0)) & (squared <= periods.farthest)).bits() != kAllLanes) [[unlikely]] {
+  if (!everywhere((squared > Doubles(0)) & (squared <= periods.farthest))) [[unlikely]] {
     for (int axis = 0; axis < 3; ++axis)
       apart[axis] = multiply_add(-rounded(apart[axis] * Doubles(periods.inverse[axis])),
                                  Doubles(periods.length[axis]), apart[axis]);

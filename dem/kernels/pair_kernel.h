@@ -158,7 +158,7 @@ class LittleByLittle {
 /// Asks for the rows of a later group.
 template <class Real>
 [[gnu::always_inline]] inline void ask_for_rows(const StepView& v, std::size_t group) {
-  constexpr std::size_t ahead = 3;
+  constexpr std::size_t ahead = 3;  // as far as memory takes
   const PairOffsets* const pairs = v.pairs.rows + std::min(group + ahead, v.pairs.groups - 1) * kLanes;
   for (std::size_t lane = 0; lane < kLanes; ++lane)
     for (const std::uint32_t row : {pairs[lane].a, pairs[lane].b})

@@ -172,8 +172,8 @@ struct Pack<T, N, true> {
   }
 #endif
 #ifdef INTERSTICE_AVX512
-  // From estimates good to 2^-14, improved at once by a series in e, what is left of one: a third of the time
-  // of a division or a root, and a unit and a half in the last place off at most.
+  // From estimates good to 2^-14, inverses improved by Newton's rule, roots at once by a series: a third of
+  // the time of a division or a root, and a unit and a half in the last place off at most.
   static Pack improved_inverse(const Pack& a) {
     constexpr bool single = std::is_same_v<T, float>;
     Pack y;
