@@ -11,6 +11,9 @@ namespace {
 constexpr std::size_t kSlotsPerBlock = 2048;
 /// Lists and springs longer than this leave the caches from step to step.
 constexpr std::size_t kBytesInCaches = std::size_t{8} << 20;
+/// Where pairs reach over more rows than this, these do not stay in a second cache of 1 MB from when they are
+/// first touched until they move: beside a row there are the ends that wait for it, and all that passes by.
+constexpr std::size_t kRowsInSecondCache = 2000;
 constexpr std::size_t kGroupsPerBlock = 256;
 
 template <class Vector>
@@ -79,11 +82,12 @@ void PairContacts::place_pairs(const std::vector<PairRef>& found, const PairOrde
 
 void PairContacts::replace(const std::vector<PairRef>& found, const PairClasses& classes,
                            const std::vector<GrainSite>& sites, const std::vector<std::uint32_t>& old_slot,
-                           const Parts& parts, const std::vector<std::uint32_t>& further_ends) {
+                           const Parts& parts, std::size_t farthest,
+                           const std::vector<std::uint32_t>& further_ends) {
   const ContactMemories old = std::move(memories_);
   const OldEnds old_ends{std::move(pairs_), std::move(first_end_), std::move(pair_of_end_)};
   pairs_ = {};
-  place_pairs(found, order_pairs(found, classes, parts, old.kept().heat));
+  place_pairs(found, order_pairs(found, classes, parts, farthest));
   for_each_block({memories_.groups(), kGroupsPerBlock}, [&](std::size_t, std::size_t begin, std::size_t end) {
     for (std::size_t k = begin * kLanes; k < end * kLanes; ++k) {
       const auto before = [&](std::uint32_t slot) { return old_slot.empty() ? slot : old_slot[slot]; };
@@ -102,9 +106,19 @@ PairView PairContacts::view() {
   const MemoryView m = memories_.view();
   const std::size_t bytes =
       pairs_.size() * (sizeof(PairOffsets) + sizeof(PairEnds) + kSpringReals * real_bytes(precision_));
-  return {memories_.groups(),  bytes > kBytesInCaches, false,    pairs_.data(),
-          row_offsets_.data(), ring_.of_pair.data(),   m.bits,   m.sliding,
-          m.rolling,           ring_forces_.data(),    m.forces, m.heat};
+  const bool beyond = bytes > kBytesInCaches, scattered = sweep_.widest > kRowsInSecondCache;
+  return {memories_.groups(),
+          beyond,
+          scattered,
+          pairs_.data(),
+          row_offsets_.data(),
+          ring_.of_pair.data(),
+          m.bits,
+          m.sliding,
+          m.rolling,
+          ring_forces_.data(),
+          m.forces,
+          m.heat};
 }
 
 PairView PairContacts::shared_view() {
@@ -115,6 +129,9 @@ PairView PairContacts::shared_view() {
 }
 
 void PairContacts::fetch_shared(std::size_t block) {
+  const std::uint32_t next = ring_.of_block[std::min(block + 2, ring_.of_block.size() - 1)];
+  for (std::uint32_t i = ring_.of_block[block + 1]; i < next; ++i)
+    kept_forces_.ask(ring_.shared[i].kept * kEndReals);
   for (std::uint32_t i = ring_.of_block[block]; i < ring_.of_block[block + 1]; ++i) {
     const SharedEnd& end = ring_.shared[i];
     ring_forces_.copy(end.place * kEndReals, kept_forces_, end.kept * kEndReals, kEndReals);

@@ -36,7 +36,7 @@ struct PairOffsets {
 struct PairView {
   std::size_t groups;
   bool beyond_caches;  // lists and springs are so long that they come from memory every step
-  bool scattered;      // rows of one group are not near those of the group before
+  bool scattered;      // later rows of pairs come from beyond the second cache
   const PairRef* pairs;
   const PairOffsets* rows;
   const PairEnds* ends;
@@ -54,10 +54,11 @@ class PairContacts {
 
   /// Takes over a new list, its pairs in the order of their classes; states and springs move with them.
   /// `old_slot[s]` is where the grain now in slot s stood when the present list was made (or kNoSlot); empty:
-  /// where it is. `further_ends`: how many ends each grain has beside those of its pairs.
+  /// where it is. `farthest`: as order_pairs takes it. `further_ends`: how many ends each grain has beside
+  /// those of its pairs.
   void replace(const std::vector<PairRef>& found, const PairClasses& classes,
                const std::vector<GrainSite>& sites, const std::vector<std::uint32_t>& old_slot,
-               const Parts& parts, const std::vector<std::uint32_t>& further_ends);
+               const Parts& parts, std::size_t farthest, const std::vector<std::uint32_t>& further_ends);
 
   /// Places of pairs, listed and empty: the range of the indices below.
   std::size_t places() const { return pairs_.size(); }
@@ -98,7 +99,8 @@ class PairContacts {
            ring_.place_of(static_cast<std::uint32_t>(slot), first_end_[slot + 1] - first_end_[slot] + rank);
   }
   std::uint32_t nobodys_end(std::size_t block) const { return end_stride(precision_) * ring_.nobodys[block]; }
-  /// Brings forces of shared pairs to where the grains of a block collect them.
+  /// Brings forces of shared pairs to where the grains of a block collect them, and asks for those of the
+  /// next block: they lie anywhere.
   void fetch_shared(std::size_t block);
   std::size_t bytes() const;
 

@@ -6,6 +6,7 @@
 #include <type_traits>
 
 #include "base/large_pages.h"
+#include "dem/ask_for.h"
 
 namespace interstice::dem {
 
@@ -48,6 +49,14 @@ class Reals {
       std::copy_n(other.floats_.data() + from, n, floats_.data() + to);
     } else {
       std::copy_n(other.doubles_.data() + from, n, doubles_.data() + to);
+    }
+  }
+  /// Asks for the memory of a number.
+  void ask(std::size_t i) const {
+    if (single_) {
+      ask_for(&floats_[i]);
+    } else {
+      ask_for(&doubles_[i]);
     }
   }
   /// As the kernels see it.

@@ -182,6 +182,7 @@ class Simulation {
   void sort_grains(std::vector<GrainSite>& sites);
   void refresh(const std::vector<std::uint32_t>& old_slot, const std::vector<GrainSite>& sites);
   Parts parts() const;
+  std::size_t farthest_in_part() const;
   void restore_springs(const SavedState& state);
   void restore_energies(const SavedState& state);
   void restore_rests(const SavedState& state);

@@ -33,9 +33,9 @@ struct Sections {
     along = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
     across[0] = (along + 1) % 3, across[1] = (along + 2) % 3;
     const double slabs = std::max(1.0, size[along] / cell);
-    const double wanted =
-        static_cast<double>(sites.size()) / slabs / kGrainsInSlab;  // of nearly square section
-    const double side = std::sqrt(size[across[0]] * size[across[1]] / std::max(1.0, wanted));
+    const double in_slab = static_cast<double>(sites.size()) / slabs,
+                 wanted = in_slab > kMostInSlab ? in_slab / kGrainsInSlabOfColumn : 1;
+    const double side = std::sqrt(size[across[0]] * size[across[1]] / wanted);  // of nearly square section
     for (int i = 0; i < 2; ++i)
       columns[i] = wanted > 1 ? std::clamp(std::round(size[across[i]] / side), 1.0, 64.0) : 1;
     const int longer = size[across[0]] >= size[across[1]] ? 0 : 1;

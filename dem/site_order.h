@@ -9,14 +9,15 @@
 
 namespace interstice::dem {
 
-/// Grains in a slab of a column, at most about so many. What a step has in use of a few slabs must stay in
-/// the second cache: with 2,300 in a slab a bed of 10^6 grains takes 1.5 times as long in double, with 300
-/// the pairs between columns begin to cost.
-inline constexpr double kGrainsInSlab = 640;
+/// Grains in a slab across the whole bed, at most, and about how many in one of a column where there are
+/// more: what a step has in use of two slabs must stay in a thread's share of the last cache, and pairs
+/// between columns cost twice as much as others.
+inline constexpr std::size_t kMostInSlab = 4096, kGrainsInSlabOfColumn = 2048;
 
-/// The indices of the sites: column after column along the longest side of the bed, in a column slab after
-/// slab, each about a grain thick, and along a Morton curve within a slab. Working through them, the grains
-/// that touch those at hand lie in the next slab at most, or in another column.
+/// The indices of the sites: slab after slab along the longest side of the bed, each about a grain thick, and
+/// along a Morton curve within a slab; column after column of slabs where whole ones would hold too many.
+/// Working through them, the grains that touch those at hand lie in the next slab at most, or in another
+/// column.
 std::vector<std::uint32_t> order_in_space(const std::vector<GrainSite>& sites);
 
 }  // namespace interstice::dem

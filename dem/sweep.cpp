@@ -18,18 +18,16 @@ namespace {
 /// done.
 class PairKeys {
  public:
-  PairKeys(const std::vector<PairRef>& pairs, const PairClasses& classes, const Parts& parts, bool all_shared)
+  PairKeys(const std::vector<PairRef>& pairs, const PairClasses& classes, const Parts& parts,
+           std::size_t farthest)
       : shared_(parts.blocks() * kRowsPerBlock / kLanes), of_pair_(pairs.size()) {
     std::vector<std::uint16_t> part_of_block(parts.blocks());
     for (std::size_t p = 0; p < parts.count(); ++p)
       for (std::size_t b = parts.first_block[p]; b < parts.first_block[p + 1]; ++b)
         part_of_block[b] = static_cast<std::uint16_t>(p);
-    // Pairs of rows far from each other, as across a periodic face or from column to column (site_order.h),
-    // would keep everything between in use.
-    constexpr std::size_t farthest = 4096;
     for (std::size_t k = 0; k < pairs.size(); ++k) {
       const auto [first, last] = std::minmax(pairs[k].a, pairs[k].b);
-      const bool shared = all_shared || last - first > farthest ||
+      const bool shared = last - first > farthest ||
                           part_of_block[first / kRowsPerBlock] != part_of_block[last / kRowsPerBlock];
       const std::size_t block = first / kRowsPerBlock;
       of_pair_[k] = static_cast<std::uint32_t>(
@@ -83,8 +81,8 @@ std::vector<std::size_t> find_front(const std::vector<PairRef>& pairs, const Pai
 }  // namespace
 
 PairOrder order_pairs(const std::vector<PairRef>& pairs, const PairClasses& classes, const Parts& parts,
-                      bool all_shared) {
-  const PairKeys keys(pairs, classes, parts, all_shared);
+                      std::size_t farthest) {
+  const PairKeys keys(pairs, classes, parts, farthest);
   std::vector<std::uint32_t> start(keys.count(parts.blocks()), 0);  // a counting sort
   for (std::size_t k = 0; k < pairs.size(); ++k) ++start[keys.of_pair(k)];
   PairOrder order;
@@ -120,6 +118,8 @@ PairOrder order_pairs(const std::vector<PairRef>& pairs, const PairClasses& clas
   order.place.resize(pairs.size());
   for (std::size_t k = 0; k < pairs.size(); ++k) order.place[k] = start[keys.of_pair(k)]++;
   sweep.front = find_front(pairs, keys, parts);
+  for (std::size_t b = 0; b < parts.blocks(); ++b)
+    sweep.widest = std::max(sweep.widest, sweep.front[b] - parts.begin_row(b));
   return order;
 }
 

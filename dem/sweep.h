@@ -43,6 +43,7 @@ struct Sweep {
   std::vector<std::size_t> first_group;  // of each part
   std::vector<std::size_t> done_before;  // by block: groups before this one must be done before its rows move
   std::vector<std::size_t> front;        // by block: one past the last row that the groups up to there touch
+  std::size_t widest = 0;                // rows from a block's begin to its front, at most
 };
 
 /// Where each pair goes in a list of groups, and the sweep over them. A group holds pairs of one part only
@@ -69,8 +70,9 @@ struct PairClasses {
   bool is_quick(std::size_t k) const { return k >= end[kAsleep]; }
 };
 
-/// `all_shared`: every pair is done before any grain moves.
+/// Pairs of rows farther apart than `farthest` are shared: they would keep in use all that lies between. With
+/// 0 every pair is done before any grain moves.
 PairOrder order_pairs(const std::vector<PairRef>& pairs, const PairClasses& classes, const Parts& parts,
-                      bool all_shared);
+                      std::size_t farthest);
 
 }  // namespace interstice::dem

@@ -273,7 +273,7 @@ void Simulation::refresh(const std::vector<std::uint32_t>& old_slot, const std::
   std::vector<std::uint32_t> walls_near(sites.size());
   for (std::size_t s = 0; s < sites.size(); ++s)
     walls_near[s] = static_cast<std::uint32_t>(wall_contacts_.places_of(s).size());
-  pair_contacts_.replace(pairs, classes, sites, old_slot, parts(), walls_near);
+  pair_contacts_.replace(pairs, classes, sites, old_slot, parts(), farthest_in_part(), walls_near);
   wall_contacts_.place_ends(pair_contacts_);
   if (options_.rates.two()) note_quick_slots(sites);
   refreshed_walls_ = walls_;
@@ -287,5 +287,9 @@ Parts Simulation::parts() const {
   if (options_.reference || threads() == 1) return {grains_.size(), 1};
   return {grains_.size(), threads() * (rest_ ? 2 : 1)};
 }
+
+/// How far apart rows may lie whose pairs are worked on within a part: of a bed in whole slabs neighbours lie
+/// within two. Energies are accounted for when all pairs are done.
+std::size_t Simulation::farthest_in_part() const { return options_.energies ? 0 : kMostInSlab * 3 / 2; }
 
 }  // namespace interstice::dem

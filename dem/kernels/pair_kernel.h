@@ -155,14 +155,13 @@ class LittleByLittle {
   std::size_t piece_;
 };
 
-/// Asks for the rows of a later group.
+/// Asks for the later rows of a later group's pairs: the earlier ones follow each other in memory.
 template <class Real>
 [[gnu::always_inline]] inline void ask_for_rows(const StepView& v, std::size_t group) {
   constexpr std::size_t ahead = 3;  // as far as memory takes
   const PairOffsets* const pairs = v.pairs.rows + std::min(group + ahead, v.pairs.groups - 1) * kLanes;
   for (std::size_t lane = 0; lane < kLanes; ++lane)
-    for (const std::uint32_t row : {pairs[lane].a, pairs[lane].b})
-      ask_for(simd::row_at<PairRow<Real>>(v.rows, row));
+    ask_for(simd::row_at<PairRow<Real>>(v.rows, std::max(pairs[lane].a, pairs[lane].b)));
 }
 
 /// Asks for what is listed of a later group, and its springs.

@@ -43,11 +43,12 @@ std::size_t part_of(const Parts& parts, std::size_t row) {
 class Order : public ::testing::TestWithParam<std::tuple<std::size_t, bool>> {
  protected:
   static constexpr std::uint32_t kRows = 12000;
+  static constexpr std::size_t kFarthest = 4096;
 
   bool two_rates() const { return std::get<1>(GetParam()); }
   Pairs all_ = pairs_at_random(kRows, 20000, two_rates());
   Parts parts_{kRows, std::get<0>(GetParam())};
-  PairOrder order_ = order_pairs(all_.pairs, all_.classes, parts_, false);
+  PairOrder order_ = order_pairs(all_.pairs, all_.classes, parts_, kFarthest);
 
   std::size_t group_of(std::size_t k) const { return order_.place[k] / kLanes; }
   std::size_t block_of(std::size_t k) const {
@@ -63,17 +64,36 @@ TEST_P(Order, GivesEveryPairAPlaceOfItsOwn) {
   EXPECT_LT(*taken.rbegin(), order_.places);
 }
 
-TEST_P(Order, DoesPairsOfTwoPartsFirst) {
+TEST_P(Order, DoesPairsOfTwoPartsAndOfRowsFarApartFirst) {
+  std::size_t far = 0;
   for (std::size_t k = 0; k < all_.pairs.size(); ++k) {
     const auto [first, last] = std::minmax(all_.pairs[k].a, all_.pairs[k].b);
     const bool apart = part_of(parts_, first) != part_of(parts_, last);
-    if (apart || last - first < 1000) {
-      EXPECT_EQ(is_shared(k), apart) << k;
-    }
+    EXPECT_EQ(is_shared(k), apart || last - first > kFarthest) << k;
+    far += !apart && last - first > kFarthest;
     if (!is_shared(k)) {
       EXPECT_GE(group_of(k), order_.sweep.first_group[part_of(parts_, first)]) << k;
     }
   }
+  EXPECT_EQ(far > 0, parts_.count() < 3);  // five parts are shorter
+}
+
+TEST_P(Order, SharesAllWhereNoneMayBeApart) {
+  const PairOrder order = order_pairs(all_.pairs, all_.classes, parts_, 0);
+  EXPECT_EQ(order.sweep.shared_groups * kLanes, order.places);
+  EXPECT_LE(order.sweep.widest, kRowsPerBlock);
+}
+
+TEST_P(Order, KnowsOverHowManyRowsTheWorkOfABlockReaches) {
+  std::size_t widest = 0;
+  for (std::size_t k = 0; k < all_.pairs.size(); ++k) {
+    if (is_shared(k)) continue;
+    const std::size_t last = std::max(all_.pairs[k].a, all_.pairs[k].b);
+    widest = std::max(widest, last + 1 - parts_.begin_row(block_of(k)));
+  }
+  EXPECT_EQ(order_.sweep.widest, widest);
+  EXPECT_GT(widest, 1000u);
+  EXPECT_LE(widest, kFarthest + kRowsPerBlock);
 }
 
 /// A block moves when the groups before `done_before` are done, which touch no row from `front` on.
