@@ -11,9 +11,10 @@ namespace {
 constexpr std::size_t kSlotsPerBlock = 2048;
 /// Lists and springs longer than this leave the caches from step to step.
 constexpr std::size_t kBytesInCaches = std::size_t{8} << 20;
-/// Where pairs reach over more rows than this, these do not stay in a second cache of 1 MB from when they are
-/// first touched until they move: beside a row there are the ends that wait for it, and all that passes by.
-constexpr std::size_t kRowsInSecondCache = 2000;
+/// A second cache, and how many numbers go through it for each row between the first pair that touches the
+/// row and its motion: its own, the ends that wait for it, and all that passes by meanwhile. (Found by trying
+/// beds.)
+constexpr std::size_t kBytesInSecondCache = std::size_t{1} << 20, kRealsMeanwhile = 76;
 constexpr std::size_t kGroupsPerBlock = 256;
 
 template <class Vector>
@@ -106,7 +107,8 @@ PairView PairContacts::view() {
   const MemoryView m = memories_.view();
   const std::size_t bytes =
       pairs_.size() * (sizeof(PairOffsets) + sizeof(PairEnds) + kSpringReals * real_bytes(precision_));
-  const bool beyond = bytes > kBytesInCaches, scattered = sweep_.widest > kRowsInSecondCache;
+  const bool beyond = bytes > kBytesInCaches,
+             scattered = sweep_.widest * kRealsMeanwhile * real_bytes(precision_) > kBytesInSecondCache;
   return {memories_.groups(),
           beyond,
           scattered,

@@ -36,7 +36,7 @@ struct PairOffsets {
 struct PairView {
   std::size_t groups;
   bool beyond_caches;  // lists and springs are so long that they come from memory every step
-  bool scattered;      // later rows of pairs come from beyond the second cache
+  bool scattered;      // rows of pairs come from beyond the second cache
   const PairRef* pairs;
   const PairOffsets* rows;
   const PairEnds* ends;

@@ -155,13 +155,18 @@ class LittleByLittle {
   std::size_t piece_;
 };
 
-/// Asks for the later rows of a later group's pairs: the earlier ones follow each other in memory.
+/// Asks for the rows of a later group's pairs. Earlier ones follow each other in memory: where a row takes
+/// more than one line they are left out.
 template <class Real>
 [[gnu::always_inline]] inline void ask_for_rows(const StepView& v, std::size_t group) {
-  constexpr std::size_t ahead = 3;  // as far as memory takes
+  using Row = PairRow<Real>;
+  constexpr std::size_t ahead = 6;  // as far as memory takes
   const PairOffsets* const pairs = v.pairs.rows + std::min(group + ahead, v.pairs.groups - 1) * kLanes;
-  for (std::size_t lane = 0; lane < kLanes; ++lane)
-    ask_for(simd::row_at<PairRow<Real>>(v.rows, std::max(pairs[lane].a, pairs[lane].b)));
+  for (std::size_t lane = 0; lane < kLanes; ++lane) {
+    const auto [earlier, later] = std::minmax(pairs[lane].a, pairs[lane].b);
+    ask_for(simd::row_at<Row>(v.rows, later));
+    if constexpr (sizeof(Row) <= kCacheLine) ask_for(simd::row_at<Row>(v.rows, earlier));
+  }
 }
 
 /// Asks for what is listed of a later group, and its springs.
