@@ -288,8 +288,9 @@ Parts Simulation::parts() const {
   return {grains_.size(), threads() * (rest_ ? 2 : 1)};
 }
 
-/// How far apart rows may lie whose pairs are worked on within a part: of a bed in whole slabs neighbours lie
-/// within two. Energies are accounted for when all pairs are done.
+/// How far apart rows may lie whose pairs are worked on within a part: of the largest whole slabs one and a
+/// half, beyond most grains in the next; smaller ones may be two apart. Energies are accounted for when all
+/// pairs are done.
 std::size_t Simulation::farthest_in_part() const { return options_.energies ? 0 : kMostInSlab * 3 / 2; }
 
 }  // namespace interstice::dem

@@ -49,7 +49,8 @@ Spread spread_on_lattice(std::size_t nx, std::size_t ny, std::size_t nz) {
 }
 
 TEST(SiteOrder, NeighboursOfABedOfSmallSectionLieInTheNextSlabAtMost) {
-  for (const auto& [nx, ny, nz] : {std::array<std::size_t, 3>{300, 20, 25}, {60, 150, 60}}) {
+  for (const auto& [nx, ny, nz] :
+       {std::array<std::size_t, 3>{300, 20, 25}, {60, 150, 60}, {40, 150, 60}, {200, 60, 40}}) {
     const std::size_t section = nx * ny * nz / std::max({nx, ny, nz});
     ASSERT_LE(section, kMostInSlab);
     const Spread small = spread_on_lattice(nx, ny, nz);
