@@ -2,6 +2,7 @@
 // it.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -15,9 +16,10 @@ namespace interstice::dem {
 inline constexpr std::size_t kMostInSlab = 4096, kGrainsInSlabOfColumn = 2048;
 
 /// The indices of the sites: slab after slab along the longest side of the bed, each about a grain thick, and
-/// along a Morton curve within a slab; column after column of slabs where whole ones would hold too many.
-/// Working through them, the grains that touch those at hand lie in the next slab at most, or in another
-/// column.
-std::vector<std::uint32_t> order_in_space(const std::vector<GrainSite>& sites);
+/// row after row within a slab, along its shorter side; column after column of slabs where whole ones would
+/// hold too many. So a grain of the mean size touches none that lies farther than a slab and two rows away,
+/// but in another column or through the periodic ends of the longest side.
+std::vector<std::uint32_t> order_in_space(const std::vector<GrainSite>& sites,
+                                          const std::array<bool, 3>& periodic);
 
 }  // namespace interstice::dem

@@ -166,7 +166,7 @@ double Simulation::longest_reach(double largest) const {
 void Simulation::sort_grains(std::vector<GrainSite>& sites) {
   if (sorted_at_ >= 0 && sites.size() == built_ids_.size() && rebuilds_ - sorted_at_ < kRebuildsPerSort)
     return;
-  std::vector<std::uint32_t> order = order_in_space(sites);
+  std::vector<std::uint32_t> order = order_in_space(sites, search_space().periodic);
   if (rest_) put_awake_first(order);
   if (options_.rates.two()) put_beating_first(order);
   grains_.take(order);

@@ -12,10 +12,12 @@ namespace {
 struct Spread {
   double far;            // share of pairs of neighbours that lie in different columns
   std::size_t farthest;  // of the others in memory
+  std::size_t wrapped;   // the same of pairs through periodic faces
 };
 
-/// Of neighbours on a cubic lattice of grains that touch.
-Spread spread_on_lattice(std::size_t nx, std::size_t ny, std::size_t nz) {
+/// Of neighbours on a cubic lattice of grains that touch, also through periodic faces across y and z.
+Spread spread_on_lattice(std::size_t nx, std::size_t ny, std::size_t nz,
+                         const std::array<bool, 3>& periodic = {}) {
   const double d = 4e-5, gap = 1.0001 * d;  // no grain stands where two slabs meet
   std::vector<GrainSite> sites;
   for (std::size_t i = 0; i < nx * ny * nz; ++i) {
@@ -24,11 +26,11 @@ Spread spread_on_lattice(std::size_t nx, std::size_t ny, std::size_t nz) {
     site.z = gap * static_cast<double>(i / nx / ny), site.radius = 0.5 * d;
     sites.push_back(site);
   }
-  const std::vector<std::uint32_t> order = order_in_space(sites);
+  const std::vector<std::uint32_t> order = order_in_space(sites, periodic);
   std::vector<std::size_t> place(order.size(), order.size());
   for (std::size_t p = 0; p < order.size(); ++p) place[order[p]] = p;
   EXPECT_EQ(std::ranges::count(place, order.size()), 0) << "everyone once";
-  Spread spread{0, 0};
+  Spread spread{0, 0, 0};
   double pairs = 0;
   const auto look_at = [&](std::size_t i, std::size_t j) {
     const std::size_t apart = std::max(place[i], place[j]) - std::min(place[i], place[j]);
@@ -43,6 +45,11 @@ Spread spread_on_lattice(std::size_t nx, std::size_t ny, std::size_t nz) {
     if (i % nx + 1 < nx) look_at(i, i + 1);
     if (i / nx % ny + 1 < ny) look_at(i, i + nx);
     if (i / nx / ny + 1 < nz) look_at(i, i + nx * ny);
+    const auto look_through = [&](std::size_t j) {
+      spread.wrapped = std::max(spread.wrapped, std::max(place[i], place[j]) - std::min(place[i], place[j]));
+    };
+    if (periodic[1] && i / nx % ny == 0) look_through(i + nx * (ny - 1));
+    if (periodic[2] && i / nx / ny == 0) look_through(i + nx * ny * (nz - 1));
   }
   spread.far /= pairs;
   return spread;
@@ -55,7 +62,18 @@ TEST(SiteOrder, NeighboursOfABedOfSmallSectionLieInTheNextSlabAtMost) {
     ASSERT_LE(section, kMostInSlab);
     const Spread small = spread_on_lattice(nx, ny, nz);
     EXPECT_EQ(small.far, 0) << nx;
-    EXPECT_LE(small.farthest, 2 * section) << nx;
+    EXPECT_LE(small.farthest, section) << nx;  // the same place in the next slab
+  }
+}
+
+TEST(SiteOrder, NeighboursThroughFacesOfASlabLieWithinTwoRows) {
+  for (const auto& [nx, ny, nz] :
+       {std::array<std::size_t, 3>{300, 20, 25}, {300, 25, 20}, {200, 60, 40}, {200, 40, 60}}) {
+    for (const auto& periodic : {std::array{false, true, false}, {false, false, true}, {true, true, true}}) {
+      const Spread spread = spread_on_lattice(nx, ny, nz, periodic);
+      EXPECT_GT(spread.wrapped, 0u) << nx;
+      EXPECT_LE(spread.wrapped, 2 * std::min(ny, nz)) << ny << ' ' << nz;
+    }
   }
 }
 
@@ -70,8 +88,8 @@ TEST(SiteOrder, ABedOfLargeSectionIsCutIntoColumns) {
 }
 
 TEST(SiteOrder, OneGrainAndNone) {
-  EXPECT_TRUE(order_in_space({}).empty());
-  EXPECT_EQ(order_in_space({GrainSite{}}), std::vector<std::uint32_t>{0});
+  EXPECT_TRUE(order_in_space({}, {}).empty());
+  EXPECT_EQ(order_in_space({GrainSite{}}, {}), std::vector<std::uint32_t>{0});
 }
 
 }  // namespace
