@@ -33,6 +33,13 @@ MemoryView ContactMemories::view() {
   return {bits_.data(), data(sliding_), data(rolling_), data(forces_), data(heat_)};
 }
 
+void ContactMemories::ask(std::size_t begin, std::size_t end) const {
+  ask_for(bits_.data() + begin, end - begin);
+  for (const Reals* springs : {&sliding_, &rolling_})
+    if (!springs->empty())
+      springs->ask(spring_index(begin * kLanes, 0), kSpringReals * (end - begin) * kLanes);
+}
+
 std::size_t ContactMemories::bytes() const {
   return bits_.capacity() * sizeof(GroupBits) + sliding_.bytes() + rolling_.bytes() + forces_.bytes() +
          heat_.capacity() * sizeof(PairHeat);

@@ -48,6 +48,8 @@ class ContactMemories {
   const KeptMemories& kept() const { return kept_; }
 
   MemoryView view();
+  /// Asks for what the groups [begin, end) keep from step to step.
+  void ask(std::size_t begin, std::size_t end) const;
   std::size_t bytes() const;
 
  private:

@@ -51,12 +51,12 @@ class Reals {
       std::copy_n(other.doubles_.data() + from, n, doubles_.data() + to);
     }
   }
-  /// Asks for the memory of a number.
-  void ask(std::size_t i) const {
+  /// Asks for the memory of n numbers.
+  void ask(std::size_t i, std::size_t n = 1) const {
     if (single_) {
-      ask_for(&floats_[i]);
+      ask_for(floats_.data() + i, n);
     } else {
-      ask_for(&doubles_[i]);
+      ask_for(doubles_.data() + i, n);
     }
   }
   /// As the kernels see it.

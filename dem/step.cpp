@@ -101,6 +101,7 @@ void Simulation::evaluate_and_move(PairRow<Real>* rows, bool begin_next) {
 
   for_parts([&](std::size_t b, std::size_t group, bool last) {
     const MemoryAhead ahead = rows_ahead(rows, b, last);
+    wall_contacts_.ask(b + 1);
     if constexpr (kSleep) {
       evaluate_needed<Real>(view, group, sweep.done_before[b], ahead);
     } else {

@@ -109,6 +109,7 @@ void Simulation::evaluate_and_move_rated(PairRow<Real>* rows, bool begin_next) {
     kernels_.pairs(model_.laws, shared_quick, border, end, {});
   });
   for_parts([&](std::size_t b, std::size_t group, bool last) {
+    wall_contacts_.ask(b + 1);
     kernels_.pairs(model_.laws, view, group, sweep.quick[b], rows_ahead(rows, b, last));
     kernels_.pairs(model_.laws, quick, sweep.quick[b], sweep.done_before[b], {});
     pair_contacts_.fetch_shared(b);

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "base/parallel.h"
+#include "dem/ask_for.h"
 #include "dem/contacts.h"
 #include "dem/grain_store.h"
 #include "dem/wall_distance.h"
@@ -103,6 +104,14 @@ WallView WallContacts::view() {
           m.bits,        m.sliding,
           m.rolling,     m.forces,
           m.heat,        power_.empty() ? nullptr : power_.data()};
+}
+
+void WallContacts::ask(std::size_t block) const {
+  if (block + 1 >= first_group_.size()) return;
+  const std::size_t begin = first_group_[block], end = first_group_[block + 1];
+  for (const auto* list : {&row_offsets_, &walls_, &ends_})
+    ask_for(list->data() + begin * kLanes, (end - begin) * kLanes);
+  memories_.ask(begin, end);
 }
 
 std::size_t WallContacts::bytes() const {

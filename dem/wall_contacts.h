@@ -77,6 +77,8 @@ class WallContacts {
     return places_of(slot) | std::views::transform([this](std::uint32_t k) { return at(k); });
   }
   WallView view();
+  /// Asks for what is kept of a block's contacts: there are few, far from each other in memory.
+  void ask(std::size_t block) const;
   std::size_t bytes() const;
 
  private:
