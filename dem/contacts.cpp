@@ -11,10 +11,10 @@ namespace {
 constexpr std::size_t kSlotsPerBlock = 2048;
 /// Lists and springs longer than this leave the caches from step to step.
 constexpr std::size_t kBytesInCaches = std::size_t{8} << 20;
-/// A second cache, and how many numbers go through it for each row between the first pair that touches the
-/// row and its motion: its own, the ends that wait for it, and all that passes by meanwhile. (Found by trying
-/// beds.)
-constexpr std::size_t kBytesInSecondCache = std::size_t{1} << 20, kRealsMeanwhile = 76;
+/// Where pairs reach over more rows than this, some have left the second cache before they are needed again:
+/// rows, ends and all that passes by meanwhile take more than half a megabyte. (Found by trying beds, with
+/// caches of 1 MB of which others use a part.)
+constexpr std::size_t kRowsInSecondCache = 1700;
 constexpr std::size_t kGroupsPerBlock = 256;
 
 template <class Vector>
@@ -107,11 +107,9 @@ PairView PairContacts::view() {
   const MemoryView m = memories_.view();
   const std::size_t bytes =
       pairs_.size() * (sizeof(PairOffsets) + sizeof(PairEnds) + kSpringReals * real_bytes(precision_));
-  const bool beyond = bytes > kBytesInCaches,
-             scattered = sweep_.widest * kRealsMeanwhile * real_bytes(precision_) > kBytesInSecondCache;
   return {memories_.groups(),
-          beyond,
-          scattered,
+          bytes > kBytesInCaches,
+          sweep_.widest > kRowsInSecondCache,
           pairs_.data(),
           row_offsets_.data(),
           ring_.of_pair.data(),

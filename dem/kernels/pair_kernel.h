@@ -163,9 +163,12 @@ template <class Real>
   constexpr std::size_t ahead = 6;  // as far as memory takes
   const PairOffsets* const pairs = v.pairs.rows + std::min(group + ahead, v.pairs.groups - 1) * kLanes;
   for (std::size_t lane = 0; lane < kLanes; ++lane) {
-    const auto [earlier, later] = std::minmax(pairs[lane].a, pairs[lane].b);
-    ask_for(simd::row_at<Row>(v.rows, later));
-    if constexpr (sizeof(Row) <= kCacheLine) ask_for(simd::row_at<Row>(v.rows, earlier));
+    const PairOffsets rows = pairs[lane];
+    if constexpr (sizeof(Row) <= kCacheLine) {
+      ask_for(simd::row_at<Row>(v.rows, rows.a)), ask_for(simd::row_at<Row>(v.rows, rows.b));
+    } else {
+      ask_for(simd::row_at<Row>(v.rows, std::max(rows.a, rows.b)));
+    }
   }
 }
 
@@ -175,12 +178,12 @@ template <class Real, class L>
   constexpr std::size_t ahead = 8;  // 4 to 32 serve alike
   const std::size_t first = std::min(group + ahead, pairs.groups - 1) * kLanes,
                     spring = spring_index(first, 0);
-  ask_for(pairs.rows + first, kLanes);
-  ask_for(pairs.ends + first, kLanes);
+  ask_for_once(pairs.rows + first, kLanes);
+  ask_for_once(pairs.ends + first, kLanes);
   if (laws.tangential == TangentialLaw::mindlin)
-    ask_for(static_cast<const Real*>(pairs.sliding) + spring, kSpringReals * kLanes);
+    ask_for_once(static_cast<const Real*>(pairs.sliding) + spring, kSpringReals * kLanes);
   if (laws.rolling == RollingLaw::epsd2)
-    ask_for(static_cast<const Real*>(pairs.rolling) + spring, kSpringReals * kLanes);
+    ask_for_once(static_cast<const Real*>(pairs.rolling) + spring, kSpringReals * kLanes);
 }
 
 template <bool one_material, class L, class P>

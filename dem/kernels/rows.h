@@ -51,7 +51,10 @@ struct PairRows {
 template <class P>
 PairRows<P> load_pair_rows(const StepView& v, std::size_t group) {
   using Row = PairRow<RealOf<P>>;
-  const PairOffsets* const pairs = v.pairs.rows + group * kLanes;
+  const PairOffsets* pairs = v.pairs.rows + group * kLanes;
+#if defined(__GNUC__)
+  asm("" : "+r"(pairs));  // or gcc keeps 32 addresses in vector registers, dearer than loading them again
+#endif
   RowLoader<P> of_a, of_b;
   simd::unrolled<kLanes>([&](auto lane) {
     constexpr int i = decltype(lane)::value;
