@@ -12,8 +12,9 @@ inline constexpr std::size_t kCacheLine = 64;
 
 /// Asks for the cache lines of [begin, end) to come to the second cache. (To be read, also where they are
 /// written later: what asks to write may bring them to the first cache, which holds too little.)
+template <int locality = 2>
 [[gnu::always_inline]] inline void ask_for(const char* begin, const char* end) {
-  for (const char* line = begin; line < end; line += kCacheLine) __builtin_prefetch(line, 0, 2);
+  for (const char* line = begin; line < end; line += kCacheLine) __builtin_prefetch(line, 0, locality);
 }
 /// The same of n objects.
 template <class T>
@@ -25,9 +26,7 @@ template <class T>
 /// out.
 template <class T>
 [[gnu::always_inline]] inline void ask_for_once(const T* object, std::size_t n) {
-  const char* const end = reinterpret_cast<const char*>(object + n);
-  for (const char* line = reinterpret_cast<const char*>(object); line < end; line += kCacheLine)
-    __builtin_prefetch(line, 0, 0);
+  ask_for<0>(reinterpret_cast<const char*>(object), reinterpret_cast<const char*>(object + n));
 }
 
 }  // namespace interstice::dem
