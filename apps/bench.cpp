@@ -46,12 +46,13 @@ Bed bed_for(const BenchArguments& a) {
   return tiled(cell, copied || a.bed.empty() ? copies_for(cell, a.grains > 0 ? a.grains : own) : Copies{});
 }
 
-Json spread(std::vector<double> values) {
+Json spread(const std::vector<double>& in_turn) {
+  std::vector<double> values = in_turn;
   std::sort(values.begin(), values.end());
   return {{"median", values[values.size() / 2]},
           {"min", values.front()},
           {"max", values.back()},
-          {"rates", values}};
+          {"rates", in_turn}};
 }
 
 /// How the bed stands: contacts of grains with each other, and how much of its weight the floor carries (all

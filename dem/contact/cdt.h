@@ -20,8 +20,8 @@ INTERSTICE_HD inline Vec3<T> cdt_torque(const Vec3<T>& relative_spin, const Vec3
   const T stopping =
       T(kCdtShare * 0.4) * (effective_mass * inverse_dt) * square(effective_radius);  // [N m s]
   const T scale = min_of(limit * inverse_spin_of(relative_spin), stopping);
-  const Vec3<T> torque = -scale * relative_spin;
-  return multiply_add(-dot(torque, normal), normal, torque);
+  const Vec3<T> along_spin = scale * relative_spin;
+  return multiply_add(dot(along_spin, normal), normal, -along_spin);
 }
 
 }  // namespace interstice::dem

@@ -118,14 +118,14 @@ INTERSTICE_HD inline ContactForce<T> evaluate_contact(const Laws& laws, const Co
   const NormalResponse<T> normal = normal_response(laws, k.overlap, k.effective_radius, c);
   const T normal_speed = dot(k.velocity, k.normal);
   const T gamma = dashpot(c.damping, normal.stiffness, k.effective_mass);
-  const T damped = multiply_add(-gamma, normal_speed, normal.force);
+  const T damped = subtract_product(gamma, normal_speed, normal.force);
   const T repulsion = laws.clip ? max_of(damped, min_of(normal.force, T(0))) : damped;
   const T attraction = attraction_in_contact(laws, k.overlap, k.effective_radius, k.area, c);
   const bool jkr = laws.cohesion == CohesionLaw::jkr;
 
   ContactForce<T> out{};
   out.heat.damping = (normal.force - repulsion) * normal_speed * step.dt;
-  const Vec3<T> slip = multiply_add(-normal_speed, k.normal, k.velocity);
+  const Vec3<T> slip = subtract_product(normal_speed, k.normal, k.velocity);
   const T shear_stiffness = c.shear_ratio * normal.stiffness;
   const T friction_limit = c.friction * abs_of(jkr ? normal.load : repulsion);
   if (laws.tangential == TangentialLaw::slider) {

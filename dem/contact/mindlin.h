@@ -34,9 +34,9 @@ INTERSTICE_HD inline TangentialForce<T> mindlin_force(const TangentialSpring<T>&
                                                       const T& stiffness, const T& dashpot, const T& limit) {
   const auto unloads = stiffness < old.stiffness;
   const T lessened = select(unloads, stiffness * inverse_of(select(unloads, old.stiffness, T(1))), T(1));
-  const Vec3<T> kept = lessened * multiply_add(-dot(old.force, normal), normal, old.force);
-  const Vec3<T> spring = multiply_add(-(stiffness * dt), velocity, kept);
-  const Vec3<T> trial = multiply_add(-dashpot, velocity, spring);
+  const Vec3<T> kept = lessened * subtract_product(dot(old.force, normal), normal, old.force);
+  const Vec3<T> spring = subtract_product(stiffness * dt, velocity, kept);
+  const Vec3<T> trial = subtract_product(dashpot, velocity, spring);
   const T held = limit * inverse_length_of(trial);  // what share of it friction can hold
   const auto slides = held < T(1);
   TangentialForce<T> out;

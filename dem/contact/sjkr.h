@@ -14,7 +14,7 @@ template <class T>
 INTERSTICE_HD inline T sphere_sphere_area(const T& a, const T& b, const T& d, const T& inverse_d,
                                           const T& overlap) {
   const T lean = (a - b) * inverse_d;
-  return max_of((T(0.25 * M_PI) * overlap) * (d + (a + b)) * multiply_add(-lean, lean, T(1)), T(0));
+  return max_of((T(0.25 * M_PI) * overlap) * (d + (a + b)) * subtract_product(lean, lean, T(1)), T(0));
 }
 
 /// Area in which a sphere of radius r intersects a plane at distance d = r - overlap from its centre [m^2].

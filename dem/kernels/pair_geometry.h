@@ -51,8 +51,8 @@ PairSites<P> pair_sites(Vec3<Doubles> apart, const Doubles& reach, const Periods
   Doubles squared = dot(apart, apart);
   if (!everywhere((squared > Doubles(0)) & (squared <= periods.farthest))) [[unlikely]] {
     for (int axis = 0; axis < 3; ++axis)
-      apart[axis] = multiply_add(-rounded(apart[axis] * Doubles(periods.inverse[axis])),
-                                 Doubles(periods.length[axis]), apart[axis]);
+      apart[axis] = subtract_product(rounded(apart[axis] * Doubles(periods.inverse[axis])),
+                                     Doubles(periods.length[axis]), apart[axis]);
     squared = dot(apart, apart);
     const auto distinct = squared > Doubles(0);  // else a fixed direction
     apart.x = select(distinct, apart.x, Doubles(1e-6) * reach);

@@ -2,8 +2,8 @@
 // pair is a mask or a select, so that a pair's bits do not depend on its neighbours in the list.
 #pragma once
 
-#include "dem/ask_for.h"
 #include "dem/flatten.h"
+#include "dem/kernels/ask_ahead.h"
 #include "dem/kernels/contact_group.h"
 #include "dem/kernels/rows.h"
 
@@ -82,7 +82,7 @@ void leave_apart(const StepView& v, std::size_t group) {
 
 template <bool one_material, class L, class P>
 void evaluate_group(const L& laws, const StepView& v, const CommonInputs<P>& common,
-                    const PairSites<P>& sites, std::size_t group) {
+                    const PairSites<P>& sites, std::size_t group, const MemoryAhead& piece) {
   using Real = RealOf<P>;
   using M = typename P::M;
   const std::size_t first = group * kLanes;
@@ -111,6 +111,8 @@ void evaluate_group(const L& laws, const StepView& v, const CommonInputs<P>& com
   if (laws.tangential == TangentialLaw::mindlin)
     store_spring(f.memory.sliding, touching, spring(v.pairs.sliding));
   if (laws.rolling == RollingLaw::epsd2) store_spring(f.memory.rolling, touching, spring(v.pairs.rolling));
+  // Between the rows and the ends of this group: what is asked for takes its turn with what they miss.
+  ask_ahead<Real>(laws, v, group, piece);
   const Vec3<P> none{P(0), P(0), P(0)};
   Vec3<P> across = none;
   if (laws.cohesion == CohesionLaw::van_der_waals)
@@ -118,8 +120,8 @@ void evaluate_group(const L& laws, const StepView& v, const CommonInputs<P>& com
   Vec3<P> torque_a = none, torque_b = none;
   if (laws.tangential != TangentialLaw::none || laws.rolling != RollingLaw::none) {
     const Vec3<P> turning = cross(g.normal, f.tangential);
-    torque_a = multiply_add(-arm_a, turning, f.rolling_torque);
-    torque_b = multiply_add(-arm_b, turning, -f.rolling_torque);
+    torque_a = subtract_product(arm_a, turning, f.rolling_torque);
+    torque_b = subtract_product(arm_b, turning, -f.rolling_torque);
   }
   Vec3<P> force = f.force;
   if (!fades_out(laws)) {
@@ -135,71 +137,19 @@ void evaluate_group(const L& laws, const StepView& v, const CommonInputs<P>& com
   bits.attracting = static_cast<std::uint16_t>(s.attracting);
 }
 
-/// Asks for memory a piece at a time: much at once would wait for each other.
-class LittleByLittle {
- public:
-  LittleByLittle(const MemoryAhead& ahead, std::size_t pieces)
-      : line_(ahead.begin),
-        end_(ahead.end),
-        piece_((static_cast<std::size_t>(end_ - line_) + pieces * kCacheLine - 1) / (pieces * kCacheLine) *
-               kCacheLine) {}
-  void ask() {
-    const char* const until = line_ + std::min(piece_, static_cast<std::size_t>(end_ - line_));
-    ask_for(line_, until);
-    line_ = until;
-  }
-
- private:
-  const char* line_;
-  const char* end_;
-  std::size_t piece_;
-};
-
-/// Asks for the rows of a later group's pairs. Earlier ones follow each other in memory: where a row takes
-/// more than one line they are left out.
-template <class Real>
-[[gnu::always_inline]] inline void ask_for_rows(const StepView& v, std::size_t group) {
-  using Row = PairRow<Real>;
-  constexpr std::size_t ahead = 6;  // as far as memory takes
-  const PairOffsets* const pairs = v.pairs.rows + std::min(group + ahead, v.pairs.groups - 1) * kLanes;
-  for (std::size_t lane = 0; lane < kLanes; ++lane) {
-    const PairOffsets rows = pairs[lane];
-    if constexpr (sizeof(Row) <= kCacheLine) {
-      ask_for(simd::row_at<Row>(v.rows, rows.a)), ask_for(simd::row_at<Row>(v.rows, rows.b));
-    } else {
-      ask_for(simd::row_at<Row>(v.rows, std::max(rows.a, rows.b)));
-    }
-  }
-}
-
-/// Asks for what is listed of a later group, and its springs.
-template <class Real, class L>
-[[gnu::always_inline]] inline void ask_for_lists(const L& laws, const PairView& pairs, std::size_t group) {
-  constexpr std::size_t ahead = 8;  // 4 to 32 serve alike
-  const std::size_t first = std::min(group + ahead, pairs.groups - 1) * kLanes,
-                    spring = spring_index(first, 0);
-  ask_for_once(pairs.rows + first, kLanes);
-  ask_for_once(pairs.ends + first, kLanes);
-  if (laws.tangential == TangentialLaw::mindlin)
-    ask_for_once(static_cast<const Real*>(pairs.sliding) + spring, kSpringReals * kLanes);
-  if (laws.rolling == RollingLaw::epsd2)
-    ask_for_once(static_cast<const Real*>(pairs.rolling) + spring, kSpringReals * kLanes);
-}
-
 template <bool one_material, class L, class P>
 void evaluate_range(const L& laws, const StepView& v, const CommonInputs<P>& common, std::size_t begin,
                     std::size_t end, const MemoryAhead& ahead) {
   using Real = RealOf<P>;
-  LittleByLittle asked(ahead, end - begin);
+  Pieces pieces(ahead, end - begin);
   for (std::size_t group = begin; group < end; ++group) {
-    asked.ask();
-    if (v.pairs.scattered) ask_for_rows<Real>(v, group);
-    if (v.pairs.beyond_caches) ask_for_lists<Real>(laws, v.pairs, group);
+    const MemoryAhead piece = pieces.next();
     const PairSites<P> sites = load_pair_sites<P>(v, common.periods, group);
     if (stay_apart(laws, v.pairs.bits[group], sites.excess)) {
+      ask_ahead<Real>(laws, v, group, piece);
       leave_apart<P>(v, group);
     } else {
-      evaluate_group<one_material>(laws, v, common, sites, group);
+      evaluate_group<one_material>(laws, v, common, sites, group, piece);
     }
   }
 }

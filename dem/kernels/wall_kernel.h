@@ -129,7 +129,7 @@ void evaluate_wall_group(const L& laws, const StepView& v, std::size_t group) {
   if (laws.cohesion == CohesionLaw::van_der_waals)
     across = select(M::from_bits(s.attracting), -attraction * kin.normal, none);
   if (laws.tangential != TangentialLaw::none || laws.rolling != RollingLaw::none)
-    torque = select(touching, multiply_add(-arm, cross(kin.normal, f.tangential), f.rolling_torque), none);
+    torque = select(touching, subtract_product(arm, cross(kin.normal, f.tangential), f.rolling_torque), none);
   const Vec3<P> force = select(touching, f.force, across);
   store_wall_ends(w.ends + first, force, torque, v.pairs.end_forces);
   if (w.forces) store_columns(force, static_cast<Real*>(w.forces) + axis_index(first, 0));

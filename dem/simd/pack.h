@@ -182,7 +182,7 @@ struct Pack<T, N, true> {
     } else {
       y.lanes = _mm512_rcp14_pd(a.lanes);
     }
-    for (int i = 0; i < (single ? 1 : 2); ++i) y = multiply_add(y, multiply_add(-a, y, Pack(1)), y);
+    for (int i = 0; i < (single ? 1 : 2); ++i) y = multiply_add(y, subtract_product(a, y, Pack(1)), y);
     return y;
   }
   static Pack estimated_inverse_root(const Pack& a) {
@@ -204,12 +204,12 @@ struct Pack<T, N, true> {
   }
   static Pack improved_inverse_root(const Pack& a) {
     const Pack y = estimated_inverse_root(a);
-    return over_root_of_rest(y, multiply_add(-a * y, y, Pack(1)));
+    return over_root_of_rest(y, subtract_product(a * y, y, Pack(1)));
   }
   /// The root itself improved, which is a multiplication shorter than a/sqrt(a); 0 of zero.
   static Pack improved_root(const Pack& a) {
     const Pack y = estimated_inverse_root(a), root = a * y;
-    return select(a > Pack(0), over_root_of_rest(root, multiply_add(-root, y, Pack(1))), Pack(0));
+    return select(a > Pack(0), over_root_of_rest(root, subtract_product(root, y, Pack(1))), Pack(0));
   }
 #endif
   friend Pack inverse_of(const Pack& a) {
@@ -245,6 +245,19 @@ struct Pack<T, N, true> {
     }
 #endif
     return a * b + c;
+  }
+  /// c - a b, rounded once where the machine can.
+  friend Pack subtract_product(const Pack& a, const Pack& b, const Pack& c) {
+#ifdef INTERSTICE_AVX512
+    if constexpr (sizeof(Lanes) == 64) {
+      if constexpr (std::is_same_v<T, float>) {
+        return _mm512_fnmadd_ps(a.lanes, b.lanes, c.lanes);
+      } else {
+        return _mm512_fnmadd_pd(a.lanes, b.lanes, c.lanes);
+      }
+    }
+#endif
+    return c - a * b;
   }
   /// The second where they are equal or one is no number, like a select by > or <.
   friend Pack max_of(const Pack& a, const Pack& b) {
@@ -322,6 +335,9 @@ struct Pack<T, N, false> {
   }
   friend Pack multiply_add(const Pack& a, const Pack& b, const Pack& c) {
     return {multiply_add(a.lo, b.lo, c.lo), multiply_add(a.hi, b.hi, c.hi)};
+  }
+  friend Pack subtract_product(const Pack& a, const Pack& b, const Pack& c) {
+    return {subtract_product(a.lo, b.lo, c.lo), subtract_product(a.hi, b.hi, c.hi)};
   }
   friend Pack sqrt_of(const Pack& a) { return {sqrt_of(a.lo), sqrt_of(a.hi)}; }
   friend Pack max_of(const Pack& a, const Pack& b) { return {max_of(a.lo, b.lo), max_of(a.hi, b.hi)}; }

@@ -5,7 +5,8 @@
 #   PART: bed-35k, bed-materials (of two, mixed), bed-200k, bed-1m (LIGGGHTS on settled beds), lammps, yade (on 35,000 equal grains), spreading (LIGGGHTS, whole runs);
 #   all of them unless some are named. Codes that are missing are installed (Debian's packages, as root or with sudo); one that cannot be
 #   costs its part only.
-#   Environment: STEPS in a block of 35,000 grains (40; half as many of the larger beds), SHARE: 20 for a 20th of the spreading run.
+#   Environment: STEPS in a block of 35,000 grains (40; half as many of the larger beds; of ours six times as
+#   many, which take about as long as LIGGGHTS'), SHARE: 20 for a 20th of the spreading run.
 set -eu
 command=$(realpath "$1")
 here=$(realpath "$(dirname "$0")")/peers

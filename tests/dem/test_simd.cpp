@@ -59,6 +59,28 @@ TYPED_TEST(Packs, InversesAndRootsAreExactToTheLastPlace) {
   EXPECT_LE(worst[2], 2.5);  // a product more
 }
 
+/// c - a b is rounded once or twice as a b + c is, so both have the same bits; here c nearly cancels a b, and
+/// what is left is the rounding.
+TYPED_TEST(Packs, AProductIsSubtractedWithTheBitsOfOneOfOtherSignAdded) {
+  using Real = TypeParam;
+  using P = Pack<Real, 16>;
+  const auto same = [](Real a, Real b, Real c) {
+    EXPECT_EQ(subtract_product(a, b, c), multiply_add(-a, b, c));
+  };
+  Random random(11, 0);
+  for (int round = 0; round < 500; ++round) {
+    Real a[16], b[16], c[16], got[16], want[16];
+    for (int i = 0; i < 16; ++i) {
+      a[i] = static_cast<Real>(random.uniform(-2, 2)), b[i] = static_cast<Real>(random.uniform(-2, 2));
+      c[i] = i % 2 == 0 ? a[i] * b[i] : static_cast<Real>(random.uniform(-2, 2));
+      same(a[i], b[i], c[i]);
+    }
+    subtract_product(P::load(a), P::load(b), P::load(c)).store(got);
+    multiply_add(-P::load(a), P::load(b), P::load(c)).store(want);
+    for (int i = 0; i < 16; ++i) EXPECT_EQ(got[i], want[i]) << a[i] << ' ' << b[i] << ' ' << c[i];
+  }
+}
+
 TYPED_TEST(Packs, TheRootOfZeroIsZero) {
   using P = Pack<TypeParam, 16>;
   TypeParam root[16];

@@ -22,9 +22,9 @@ liggghts_bed() {
     -var E 1e9 -var k 1e6 2> /dev/null | rates_from_loops "$1" "$2"
 }
 
-# file of rates, steps, threads, precision, options
+# file of rates, steps of theirs in a block, threads, precision, options: in blocks that last about as long as theirs
 ours() {
-  "$command" bench --bed bed.dump --periodic --threads "$3" --precision "$4" --warm-up 20 --blocks 3 --steps "$2" $5 |
+  "$command" bench --bed bed.dump --periodic --threads "$3" --precision "$4" --warm-up 20 --blocks 3 --steps $((6 * $2)) $5 |
     awk '/"rates"/ { rates = 1; next } rates && /]/ { exit } rates { sub(",", ""); print $1 / 1e6 }' >> "$1"
 }
 
