@@ -111,7 +111,7 @@ void evaluate_group(const L& laws, const StepView& v, const CommonInputs<P>& com
   if (laws.tangential == TangentialLaw::mindlin)
     store_spring(f.memory.sliding, touching, spring(v.pairs.sliding));
   if (laws.rolling == RollingLaw::epsd2) store_spring(f.memory.rolling, touching, spring(v.pairs.rolling));
-  // Between the rows and the ends of this group: what is asked for takes its turn with what they miss.
+  // Here, not before the rows are loaded: what is asked for would hold up what they miss.
   ask_ahead<Real>(laws, v, group, piece);
   const Vec3<P> none{P(0), P(0), P(0)};
   Vec3<P> across = none;
